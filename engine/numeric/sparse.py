@@ -25,6 +25,7 @@ _SMALLEST = 8  # pixels along a cell, which else is half as large as the sample:
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _BITS20 = np.uint64(0xFFFFF)
 _1, _20, _40 = np.uint64(1), np.uint64(20), np.uint64(40)
+_HEAVIEST = math.sqrt(3.0)  # of a point, its weights being of variance 1
 # Weights of either sign, evenly spread from half the standard deviation up: none of the points is lost.
 _LEAST = np.float32(0.5)
 _RANGE = np.float32((math.sqrt(11.25) - 1.5) / 2.0 / (1 << 23))
@@ -87,6 +88,19 @@ def spread(response: np.ndarray, density: float) -> float:
     channels, height, width = response.shape
     energy = float(np.square(response, dtype=np.float64).sum()) / channels
     return math.sqrt(density * energy / (height * width))
+
+
+def loudness(impulse: Impulse, noise: Noise) -> tuple[float, float]:
+    """Returns how far a field is from 0 at most, wherever its points lie, and its standard deviation; of its loudest
+    channel."""
+    most, count, size = float(np.abs(impulse.phases).max(initial=0.0)), 1, impulse.size
+    cells = [max(_SMALLEST, side // 2) for side in size]
+    for side, cell in zip(impulse.phases.shape[3:], cells, strict=True):
+        count *= -(-(side << impulse.coarser) // cell) + 1
+    in_cell = int(noise.density * (cells[0] * cells[1] / (size[0] * size[1]))) + 1
+    energy = np.square(impulse.phases, dtype=np.float64).mean(axis=(0, 1)).sum(axis=(1, 2)).max(initial=0.0)
+    per_pixel = noise.density * 4.0**impulse.coarser / (size[0] * size[1])
+    return _HEAVIEST * count * in_cell * most, math.sqrt(per_pixel * float(energy))
 
 
 def reach(impulse: Impulse, rect: Rect) -> Rect:

@@ -25,7 +25,7 @@ wrap around) there is only the picture that the canvas shows, on its grid of 2^-
 from __future__ import annotations
 
 import statistics
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -40,6 +40,7 @@ from engine.canvas.tile_cache import TileCache
 from engine.checks.roles import AS_HEIGHT
 from engine.numeric.address import TILE, Rect
 from engine.painting.value import Painting
+from engine.terrain.land_bound import Remainder, layer_bound, nothing_lies
 from engine.terrain.layer_heights import Brightness, Pixel, Zero, layer_brightness, luma, zeros_of
 
 COMPOSITE, ALPHA = "composite", "alpha"
@@ -131,6 +132,43 @@ class Land:
             self._known[key] = found
         return found
 
+    def bound(self, level: int, rect: Rect) -> Remainder | None:
+        """Returns how far the land in a rectangle may be from its heights at a level, in pixels of level 0: no finer
+        level, expanded from there, differs by more.  None where nothing is known: where several layers lie over one
+        another, where they are more than laid over one another, and where ink is renewed."""
+        told = self._only_layer(level, rect)
+        if told is None:
+            return None
+        layer, opacity, ground = told
+        found = Remainder(0.0, 0.0)
+        if layer is not None:
+            seen = layer_bound(layer, ground, level, rect, self.cache)
+            if seen is None:
+                return None
+            found = seen
+        by = abs(self.scale) * opacity
+        return Remainder(found.hard * by, found.rms * by)
+
+    def _only_layer(self, level: int, rect: Rect) -> tuple[Layer | None, float, float] | None:
+        """Returns the one layer that lies in a rectangle, its opacity, and the brightness of what it does not cover;
+        None if there are more."""
+        if self.source == ALPHA:
+            return None
+        if self.source == COMPOSITE:
+            root = layers.pictured(self.painting.root)
+            ground = (
+                self.ground if root.paper is None else float(luma(Paper(root.paper).planes(Rect(0, 0, 1, 1)))[0, 0])
+            )
+            node: Node = root
+        else:
+            node, ground = layers.find(self.painting.root, self.source), self.ground
+        if isinstance(node, Layer):
+            return None if node.wrap is not None or node.mask is not None else (node, 1.0, ground)
+        if not isinstance(node, Group) or node.mask is not None or not _plain(node.children):
+            return None
+        there = [one for one in _shown(node.children) if not nothing_lies(one[0], level, rect, self.cache)]
+        return None if len(there) > 1 else (*there[0], ground) if there else (None, 1.0, ground)
+
     def rim(self) -> float:
         """Returns the median brightness of what is painted along the frame's rim; 0 where nothing is."""
         frame, level = self.painting.frame, 0
@@ -204,6 +242,17 @@ def _plain(nodes: Iterable[Node]) -> bool:
         elif not isinstance(node, Layer) or node.wrap is not None or node.mask is not None:
             return False
     return True
+
+
+def _shown(nodes: Iterable[Node]) -> Iterator[tuple[Layer, float]]:
+    """Yields the layers that show, each with its opacity."""
+    for node in nodes:
+        if not node.visible or not node.opacity:
+            continue
+        if isinstance(node, Group):
+            yield from _shown(node.children)
+        elif isinstance(node, Layer):
+            yield node, node.opacity
 
 
 def _over(under: Brightness, over: Brightness, opacity: float) -> Brightness:

@@ -105,6 +105,12 @@ class Matched(Tiled):
         out: np.ndarray = np.where(alpha < np.float32(0.5), near, np.float32(1.0) - near)
         return out
 
+    @property
+    def octave(self) -> np.ndarray:
+        """Gives what continues it: float32 (c, h, w), before its weight."""
+        own = self._planes(octave_of(self.picture, self.arithmetic).tile)
+        return own * np.float32(_stretched(self.shown, self.period, self.roughness, self.arithmetic))
+
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
         tile = self._planes(octave_of(self.picture, self.arithmetic).tile)
         h = fold_key(_DOMAIN, depth)

@@ -60,7 +60,7 @@ def octave_weights(
     """W(depth, depth - m) for the ages m = 0, 1, ...: float32 (number of octaves,).  W = r^j for ever, if not
     `renew`."""
     settled, own = form.settled, functions(arithmetic)
-    if not renew or roughness < _SMOOTH or depth <= settled:
+    if lasting(roughness, renew) or depth <= settled:
         out = np.zeros(depth + 1)
         for j in range(min(depth, _added(roughness)) + 1):
             out[depth - j] = own.power(roughness, j)
@@ -76,7 +76,7 @@ def octave_changes(
     depth: int, roughness: float, form: Continuation, arithmetic: int = LIBRARY, renew: bool = True
 ) -> np.ndarray:
     """W(depth, j) - W(depth - 1, j), by age, without the zeros at the end: float32 (number of octaves,)."""
-    if not renew or roughness < _SMOOTH:  # so deep that the arrays of weights would be long
+    if lasting(roughness, renew):  # so deep that the arrays of weights would be long
         return np.array(
             [functions(arithmetic).power(roughness, depth)] if depth <= _added(roughness) else [], np.float32
         )
@@ -85,6 +85,11 @@ def octave_changes(
     both[: now.size] = now
     both[1 : before.size + 1] -= before
     return np.trim_zeros(both, "b")
+
+
+def lasting(roughness: float, renew: bool) -> bool:
+    """Tells whether octaves keep their strength for ever."""
+    return not renew or roughness < _SMOOTH
 
 
 def _added(roughness: float) -> int:

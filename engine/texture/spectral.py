@@ -25,7 +25,7 @@ from engine.numeric.hashing import fold_key
 from engine.numeric.spectra import SPREAD
 from engine.texture import sample
 from engine.texture.image import ImageSource, tiled
-from engine.texture.octaves import Continuation, octave_changes, octave_weights
+from engine.texture.octaves import Continuation, lasting, octave_changes, octave_weights
 from engine.texture.record import told_kind
 
 _DOMAIN = 0x73706172  # "spar": tells these hashes from those of other textures
@@ -66,6 +66,16 @@ class _Spectral:
     @property
     def form(self) -> Continuation:
         raise NotImplementedError
+
+    @property
+    def raised(self) -> bool:
+        """Tells whether older octaves are raised again below some level."""
+        return not lasting(self.roughness, self.renew)
+
+    def newest(self, depth: int) -> float:
+        """Returns the weight of the octave that a level adds so many levels below the native one."""
+        changes = octave_changes(depth, self.roughness, self.form, self.arithmetic, self.renew)
+        return float(changes[0]) if changes.size else 0.0
 
     def _own(self, level: int, rect: Rect) -> np.ndarray:
         raise NotImplementedError
@@ -153,13 +163,24 @@ class Tiled(_Spectral):
         """Gives how octaves beyond the sample's pixels go on."""
         return sample.tile(self.shown, self.period, self.arithmetic).form
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Gives its width and height at the native level."""
+        height, width = sample.tile(self.shown, self.period, self.arithmetic).levels[-1].shape[1:]
+        return width, height
+
+    @property
+    def octave(self) -> np.ndarray:
+        """Gives what continues it: float32 (c, h, w), before its weight."""
+        return sample.tile(self.shown, self.period, self.arithmetic).top
+
     def _own(self, level: int, rect: Rect) -> np.ndarray:
         levels = sample.tile(self.shown, self.period, self.arithmetic).levels
         return tiled(levels[level - self.native - 1], rect)
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
         """Returns the tile's finest content, shifted elsewhere."""
-        top = sample.tile(self.shown, self.period, self.arithmetic).top
+        top = self.octave
         h = fold_key(_DOMAIN, depth)
         x, y = (h & 0xFFFFFFFF) % top.shape[2], (h >> 32) % top.shape[1]
         return tiled(top, Rect.at(rect.x0 + x, rect.y0 + y, rect.width, rect.height))
@@ -230,6 +251,15 @@ class Sparse(_Spectral):
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
         return self._field(sample.finest(self.source, self.period, self.arithmetic)[0], depth, rect)
+
+    def loudness(self, level: int) -> tuple[float, float]:
+        """Returns how far the field is from its mean at most, and by rms, at a level down to the native one; beyond, an
+        octave before its weight."""
+        own = level <= self.native
+        impulse = self.impulse(level) if own else sample.finest(self.source, self.period, self.arithmetic)[0]
+        most, spread = sparse.loudness(impulse, self.noise)
+        factor = self.spread * SPREAD / math.sqrt(self.density)
+        return most * factor, spread * factor
 
     def _field(self, impulse: sparse.Impulse, octave: int, rect: Rect) -> np.ndarray:
         out = sparse.field(impulse, self._noise(octave), rect)

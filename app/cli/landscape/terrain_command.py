@@ -120,10 +120,21 @@ def _map(options: argparse.Namespace, land: Land) -> None:
     if note:
         print(f"inkfall: --rect: {note}", file=sys.stderr)
     write_map(options.out, options.target, _relief(options, land, level, rect), options.metres_per_pixel)
+    _tell_rest(land, level, rect)
+
+
+def _tell_rest(land: Land, level: int, rect: Rect, error: float = 0.0, where: str = "") -> None:
+    """Prints how far the land is from what was written, at most; `error`: what that errs by itself."""
+    from engine.terrain.height_window import in_pixels
+
+    found = land.bound(level, rect)
+    if found is not None:
+        print(f"the land, at any depth, is at most {error + in_pixels(found.hard, level):.3g} pixels off{where}")
 
 
 def _mesh(options: argparse.Namespace, land: Land, ending: str) -> None:
     from engine.terrain.drape import cover_of
+    from engine.terrain.height_window import between
     from engine.terrain.outputs import meshed, write_mesh
 
     level, rect = _place(options, land.painting)
@@ -135,5 +146,6 @@ def _mesh(options: argparse.Namespace, land: Land, ending: str) -> None:
     except ValueError as error:
         raise Refused(f"--triangles: {error}") from None
     print(f"{made.triangles} triangles, at most {made.error:.3g} pixels off")
+    _tell_rest(land, level, heights.rect, made.error + between(heights.heights), " inside the rim")
     thick = max(1.0, 0.05 * max(rect.width, rect.height)) if options.base is None else options.base
     write_mesh(options.out, made, cover_of(land, wet(options, land)), thick, options.metres_per_pixel)

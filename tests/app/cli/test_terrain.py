@@ -28,6 +28,35 @@ def terrain(saved, out, *words, height=("--height", "Sky", "--scale", "40")):
     return main(["terrain", str(saved), str(out), "--rect", PLACE, *height, *map(str, words)])
 
 
+def test_how_far_the_land_is_from_a_mesh_is_told(tmp_path, capsys):
+    """Triangles are at most so far from the land four levels below as was said."""
+    ink = {"texture": "rock", "amount": 1, "period": 64, "roughness": 0.7, "renew": False, "colour": "#ffffff"}
+    lines = (
+        {"inkfall": 2, "frame": [0, 0, 64, 64], "seed": 3},
+        {"do": "stroke", "points": [[32, 32]], "brush": {"radius": 60, "colour": "#404040", "ink": [ink]}},
+    )
+    (tmp_path / "a.jsonl").write_text("\n".join(map(json.dumps, lines)))
+    assert main(["play", str(tmp_path / "a.jsonl"), "--save", str(tmp_path / "a.ora")]) == 0
+    words = "--rect", "1,40,40,32,32", "--scale", "40"
+    capsys.readouterr()
+    assert main(["terrain", str(tmp_path / "a.ora"), str(tmp_path / "a.stl"), *words, "--error", "0.5"]) == 0
+    told = capsys.readouterr().out.splitlines()[1].split()
+    assert " ".join(told).startswith("the land, at any depth, is at most ")
+    promised = float(told[told.index("most") + 1])
+    deep = land(open_painting(tmp_path / "a.ora").painting, scale=40).height(5, Rect.at(41 << 4, 41 << 4, 480, 480))
+    mesh = trimesh.load(tmp_path / "a.stl")
+    some = np.arange(3, 477, 43)
+    x, y = (axis.ravel() for axis in np.meshgrid(*2 * [(some + 0.5) / 16 + 0.5]))  # from the first sample
+    corners = mesh.triangles[mesh.face_normals[:, 2] > 1e-6]
+    parts = trimesh.triangles.points_to_barycentric(
+        np.repeat(corners * [1, 1, 0], x.size, axis=0), np.tile(np.stack([x, -y, 0 * x], 1), (len(corners), 1))
+    ).reshape(len(corners), x.size, 3)
+    within = parts.min(axis=2).argmax(axis=0)
+    z = (parts[within, np.arange(x.size)] * corners[within, :, 2]).sum(axis=1)
+    off = np.abs(z - 2.0 * deep[np.ix_(some, some)].ravel()).max()
+    assert 0.1 * promised < off <= promised
+
+
 @pytest.mark.parametrize("target", ["godot", "unreal", "unity", "blender", "gis"])
 def test_height_maps_for_programs(saved, heights, tmp_path, capsys, target):
     metres = (2.5 * heights.astype(np.float32)).astype(np.float32)
