@@ -22,13 +22,12 @@ from engine.canvas.layers import Layer
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.terrain.layer_heights import FINEST_GRID, LUMINANCES, luma
-from engine.texture.bounds import bound
+from engine.texture.bounding import bound
 from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
 
-_RIM = 3  # pixels around a rectangle that have a part in what lies below it
-_APART = 4.0  # steps from pixel to pixel within what one pixel is made of
-_ALPHA = 3
+_ROUND_ABOUT = 3  # pixels around a rectangle that have a part in what lies below it
+_STEPS_APART = 4.0  # steps from pixel to pixel within what one pixel is made of
 _GRID = 64 * 2.0**-FINEST_GRID  # what rounding at each of its levels comes to
 
 
@@ -52,7 +51,7 @@ def layer_bound(
 ) -> Remainder | None:
     """Returns how far the brightness of a layer, with `ground` where nothing is painted, may go below a level; None
     where nothing is known."""
-    around, pyramid = rect.grown(_RIM), layer.pyramid
+    around, pyramid = rect.grown(_ROUND_ABOUT), layer.pyramid
     if layer.growth and growth.meets(layer.growth, level, around):
         return None
     # Heights lie on a grid of their own, from level 0 up on the canvas'.
@@ -73,7 +72,7 @@ def layer_bound(
 
 def nothing_lies(layer: Layer, level: int, rect: Rect, cache: TileCache | None = None) -> bool:
     """Tells whether a layer is empty around a rectangle, at all finer levels too."""
-    around, pyramid = rect.grown(_RIM), layer.pyramid
+    around, pyramid = rect.grown(_ROUND_ABOUT), layer.pyramid
     if layer.growth and growth.meets(layer.growth, level, around):
         return False
     if any(pyramid.has_records(k, around.zoomed(k - level)) for k in pyramid.levels if k > level):
@@ -98,7 +97,7 @@ def _of_ink(laid: _Laid, level: int, rect: Rect | None) -> Remainder | None:
     found = bound(laid.ink, level, own)
     if found is None:
         return None
-    return Remainder(laid.amplitude * found.hard + _APART * laid.apart * found.edge, laid.amplitude * found.rms)
+    return Remainder(laid.amplitude * found.hard + _STEPS_APART * laid.apart * found.edge, laid.amplitude * found.rms)
 
 
 def _of_inks(inks: list[_Laid], level: int) -> Remainder | None:
@@ -117,7 +116,7 @@ def _stored(layer: Layer, level: int, rect: Rect, ground: float) -> list[tuple[f
     for key, record in layer.pyramid.records(level, rect):
         now = effective(layer.pyramid, key, record)
         data = np.abs(now.data.astype(np.float64)) * step
-        most = max(most, float((luma(data) + abs(ground) * data[_ALPHA]).max(initial=0.0)))
+        most = max(most, float((luma(data) + abs(ground) * data[COLOURS - 1]).max(initial=0.0)))
         for i, ink in enumerate(now.inks):
             planes = data[COLOURS + 3 * i : COLOURS + 3 * i + 3]
             brightest = sum(

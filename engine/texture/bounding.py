@@ -52,7 +52,7 @@ class Bound(NamedTuple):
     edge: float = 0.0
 
 
-NOTHING = Bound(0.0, 0.0)
+NO_MORE = Bound(0.0, 0.0)
 
 
 @singledispatch
@@ -66,7 +66,7 @@ def bound(made: Instance, level: int, rect: Rect | None = None) -> Bound | None:
 
 @bound.register
 def _white(made: White, level: int, rect: Rect | None = None) -> Bound:
-    return NOTHING
+    return NO_MORE
 
 
 @bound.register(Stripes)
@@ -131,7 +131,7 @@ def _summed(steps: Sequence[tuple[float, float]]) -> tuple[float, float]:
 @bound.register
 def _tiled(made: Tiled, level: int, rect: Rect | None = None) -> Bound | None:
     if not made.shown.there:
-        return NOTHING
+        return NO_MORE
     if getattr(made, "cover", None) is not None or made.kind.endswith("-cover"):
         return None  # alpha is sent through a curve that changes with the level
     beyond = _octaves(made, level, *_sizes(made.octave))
@@ -153,7 +153,7 @@ def _tile_steps(made: Tiled) -> tuple[tuple[float, float], ...]:
 @bound.register
 def _sparse(made: Sparse, level: int, rect: Rect | None = None) -> Bound | None:
     if not made.shown.there:
-        return NOTHING
+        return NO_MORE
     beyond = _octaves(made, level, *made.loudness(made.native + 1))
     if beyond is None or level >= made.native:
         return beyond
@@ -168,7 +168,7 @@ def _octaves(made: Tiled | Sparse, level: int, most: float, spread: float) -> Bo
     depth = max(0, level - made.native)
     weight = made.newest(depth + 1)
     if not weight:
-        return NOTHING
+        return NO_MORE
     if made.raised or made.roughness >= 1.0:
         return None
     total = weight / (1.0 - made.roughness) * _ROUNDED
@@ -186,12 +186,12 @@ def _shaped(made: Shaped, level: int, rect: Rect | None = None) -> Bound | None:
     level = max(level, made.base)
     if isinstance(own, Image):
         gone = level - made.base >= own.refinements + FADED
-        return NOTHING if gone else Bound(1.0, 1.0, 1.0)
+        return NO_MORE if gone else Bound(1.0, 1.0, 1.0)
     if inner is None:
         return None
     curve = shaping.table(made.curve).astype(np.float64)
     if isinstance(own, White):
-        return NOTHING
+        return NO_MORE
     if inner.edge:
         most = 2.0 * float(np.ptp(curve))
         return Bound(most, min(most, inner.rms), most)

@@ -5,7 +5,7 @@ import pytest
 
 from engine.numeric.address import Rect
 from engine.numeric.similarity import Dyadic, Similarity
-from engine.texture.bounds import NOTHING, bound
+from engine.texture.bounding import NO_MORE, bound
 from engine.texture.image import ImageSource
 from engine.texture.placed import as_placed
 from engine.texture.shaped import FADED, shaped
@@ -113,10 +113,10 @@ def test_rock_keeps_the_law_of_its_octaves():
 
 
 def test_pictures_add_nothing_past_their_pixels():
-    assert bound(TEXTURES["white"], 0) == NOTHING
+    assert bound(TEXTURES["white"], 0) == NO_MORE
     assert bound(TEXTURES["image"], 1).hard > 0.1
-    assert bound(TEXTURES["image"], 2) == NOTHING
-    assert bound(TEXTURES["bent picture"], 2 + FADED) == NOTHING
+    assert bound(TEXTURES["image"], 2) == NO_MORE
+    assert bound(TEXTURES["bent picture"], 2 + FADED) == NO_MORE
 
 
 @pytest.mark.parametrize("texture", [made("rock"), made("spectrum"), made("sparse"), made("rock", roughness=0)])
