@@ -14,6 +14,9 @@ def test_the_tooltip_of_a_layer_covers_no_row(program):
         app.box(name)
     rows = [app.part(name) for name in ("Layer 2", "Layer 1")]  # below the one that is pointed at
     left = app.part("eye")[1].start
+    merge, remove = app.box("merge_down"), app.box("remove")
+    assert merge[2] <= remove[0], "the buttons below the list lie upon one another"
+    assert remove[2] - remove[0] == merge[2] - merge[0], "the button that deletes is cut off by the end of the screen"
     column = slice(rows[0][0].start, 730), slice(left, 1280)
     still = app.parked()
     for over in ("Layer 3", "eye"):

@@ -244,9 +244,11 @@ class LayersPanel:
             ("merge_down", icons.MERGE),
             ("remove", icons.DELETE),
         )
+        left, side = imgui.get_cursor_pos_x(), imgui.get_frame_height()
+        step = (imgui.get_content_region_avail().x - side) / (len(names) - 1)  # all in sight, however narrow it is
         for i, (name, icon) in enumerate(names):
             if i:
-                imgui.same_line()
+                imgui.same_line(left + i * min(step, side + imgui.get_style().item_spacing.x))
             action = actions.ACTIONS[name]
             if w.icon_button(name, icon, actions.tip(name), enabled=action.when(desk)):
                 actions.perform(desk, action)
