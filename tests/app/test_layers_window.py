@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 
+from engine.archive.opening import open_painting
+from engine.canvas import layers
+
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 
 
@@ -52,3 +55,24 @@ def test_another_active_layer_is_brought_into_sight(program):
     app.box("Layer 1")
     app.keys(*["ctrl+shift+z"] * 8)
     app.box("Layer 9")
+
+
+def test_how_high_and_how_wet_the_land_is_are_dragged_in_one_step_each(program, tmp_path):
+    app = program()
+    app.settled(60.0)
+    app.click("add_layer")
+    app.box("Layer 1")
+    app.click("Layer menu")
+    app.click("Height")
+    app.box("Water")
+    for name, to in (("Height", 0.9), ("Water", 0.25)):
+        app.drag(app.at(name, 0.4), app.at(name, to))
+        app.do("mouseup", 1)
+    app.save_as(tmp_path / "a.ora")
+    hills = layers.find(open_painting(tmp_path / "a.ora").painting.root, "Layer 1")
+    assert hills.role == "height"
+    assert hills.scale > 300
+    assert 0.15 < hills.sea < 0.35
+    app.box("Water")
+    app.keys("ctrl+z", "ctrl+z", "ctrl+z")  # both drags, and the role
+    app.until_gone("Water")

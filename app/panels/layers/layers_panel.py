@@ -10,6 +10,7 @@ from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 from app.panels.layers import mask_picture
+from app.panels.layers.layer_sliders import LayerSliders
 from engine.painting import commands as c
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow, Ready
@@ -26,7 +27,7 @@ class LayersPanel:
         self._text = ""
         self._focus = False
         self._folded: set[str] = set()
-        self._opacity: tuple[str, float] | None = None
+        self._sliders = LayerSliders()
         self._active: str | None = None
         self._reveal: str | None = None  # a row that is to be brought into sight
 
@@ -64,23 +65,8 @@ class LayersPanel:
             and row
         ):
             desk.post(Do(c.SetLayer(row.name, locked=not locked)))
-        self._opacity_slider(desk, row)
+        self._sliders.draw(desk, row)
         imgui.end_disabled()
-
-    def _opacity_slider(self, desk: Desk, row: LayerRow | None) -> None:
-        """Posts one command when the slider is let go, so that it is one step to undo."""
-        value = row.opacity if row else 1.0
-        if self._opacity and row and self._opacity[0] == row.name:
-            value = self._opacity[1]
-        changed, percent = w.slider(
-            "Opacity##layer", value * 100, (0.0, 100.0), "How opaque the layer is", form="%.0f%%"
-        )
-        if changed and row:
-            self._opacity = row.name, percent / 100
-        if self._opacity and not imgui.is_item_active():
-            name, wanted = self._opacity
-            self._opacity = None
-            desk.post(Do(c.SetLayer(name, opacity=round(wanted, 4))))
 
     def _list(self, desk: Desk, rows: tuple[LayerRow, ...]) -> None:
         line = imgui.get_frame_height() + 3 * desk.scale
