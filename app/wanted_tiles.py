@@ -32,7 +32,9 @@ class Tiles:
         """Posts which tiles the screen wants, near ones first, when that has changed."""
         view, level = desk.view, desk.view.shown_level
         seen = cells(view, level)
-        key = (level, seen[0], seen[-1], self._serial, *desk.middle())
+        desk.light.keep_to(desk.known.scene)
+        heights = desk.light.light.height if desk.light.on else None
+        key = (level, seen[0], seen[-1], self._serial, heights, *desk.middle())
         if key == self._asked:
             return
         self._asked = key
@@ -40,7 +42,7 @@ class Tiles:
         wanted = near_first(view, seen, x, y)
         wanted += [t for t in cells(view, level - COARSER) if t not in wanted]
         wanted += _ring(seen)
-        desk.post(Look(tuple((*t, self._screen.revision(t)) for t in wanted)))
+        desk.post(Look(tuple((*t, self._screen.revision(t)) for t in wanted), heights))
 
     def _patch(self, desk: Desk, patch: results.Patch, now: float) -> None:
         self._screen.upload(patch, desk.view, now)

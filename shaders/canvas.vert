@@ -7,6 +7,7 @@ out vec2 own;
 out vec2 old;
 flat out vec3 pick; // layer, ancestor's layer, weight
 uniform vec2 size;
+uniform float rim;  // pixels that are drawn around the screen
 uniform vec4 turn;  // rows of the matrix from canvas to screen directions
 
 void main() {
@@ -16,5 +17,6 @@ void main() {
     own = corner;
     old = source.zw + corner * span;
     pick = vec3(source.xy, cell.w);
-    gl_Position = vec4(at.x / size.x * 2.0 - 1.0, 1.0 - at.y / size.y * 2.0, 0.0, 1.0);
+    vec2 part = (at + rim) / (size + 2.0 * rim);
+    gl_Position = vec4(part.x * 2.0 - 1.0, 1.0 - part.y * 2.0, 0.0, 1.0);
 }

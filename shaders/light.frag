@@ -1,14 +1,14 @@
 #version 330 core
 // The canvas as it was drawn, lit by its own relief: the law of engine/light/lit_relief.py.
 out vec4 colour;
-uniform sampler2D picture;  // premultiplied, pixel for pixel
-uniform vec4 weights;       // of its channels, whose sum is the height
+uniform sampler2D picture;  // premultiplied, pixel for pixel, with a rim of RIM pixels around the screen
+uniform sampler2D relief;   // its heights
 uniform float slope;        // where the heights of the two neighbours of a pixel differ by one
 uniform vec3 sun;           // to the right, downward, out of the screen; of length one
 uniform float gloss;
 
 float height(ivec2 at) {
-    return dot(weights, texelFetch(picture, clamp(at, ivec2(0), textureSize(picture, 0) - 1), 0));
+    return texelFetch(relief, at, 0).r;
 }
 
 float power24(float x) {
@@ -19,7 +19,7 @@ float power24(float x) {
 }
 
 void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy);
+    ivec2 at = ivec2(gl_FragCoord.xy) + RIM;
     colour = texelFetch(picture, at, 0);
     vec2 g = slope * vec2(height(at + ivec2(1, 0)) - height(at - ivec2(1, 0)),
                           height(at - ivec2(0, 1)) - height(at + ivec2(0, 1)));

@@ -4,6 +4,7 @@ in vec4 cell;       // screen x, y of its corner; screen pixels along a side
 out vec4 squares;   // coarse (xy) and fine (zw) squares from where the pattern begins
 out vec4 inner;     // screen pixels, before turning, from the frame's left, top, right and bottom inwards
 uniform vec2 size;      // of the screen, pixels
+uniform float rim;      // pixels that are drawn around it
 uniform vec4 turn;      // rows of the matrix from canvas to screen directions
 uniform vec4 inverse;   // rows of the matrix from screen to canvas directions
 uniform vec2 pitch;     // coarse and fine squares a screen pixel
@@ -17,5 +18,6 @@ void main() {
     vec2 at = vec2(dot(inverse.xy, from), dot(inverse.zw, from));
     squares = vec4(at * pitch.x + phase.xy, at * pitch.y + phase.zw);
     inner = vec4(at - frame.xy, frame.zw - at);
-    gl_Position = vec4(place.x / size.x * 2.0 - 1.0, 1.0 - place.y / size.y * 2.0, 0.0, 1.0);
+    vec2 part = (place + rim) / (size + 2.0 * rim);
+    gl_Position = vec4(part.x * 2.0 - 1.0, 1.0 - part.y * 2.0, 0.0, 1.0);
 }

@@ -12,12 +12,13 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import moderngl
-import numpy as np
 
+from app.canvas.cell_pass import CellPass, Row
 from app.canvas.lamp import Lamp
+from app.canvas.relief import Relief
 from app.canvas.shader_files import shader_source
 from app.canvas.view import View
-from engine.light.light import Light
+from engine.light.light import BY_ALPHA, BY_PICTURE, LUMINANCE, RIM, Light
 from engine.numeric.address import Rect
 from engine.studio.requests import SCREEN_TILE
 from engine.studio.results import Patch
@@ -28,9 +29,6 @@ LIGHT, DARK = 0.955, 0.225  # greys of the squares where there is no paper, and 
 CONTRAST = 0.045  # of the squares
 SQUARE = 16  # side of the paper's squares, pixels of the view's level
 Insets = tuple[float, float, float, float]
-Row = tuple[float, ...]
-# Instance attributes that a program does not use are passed over.
-_SKIPPED = {"cell": "16x", "source": "16x", "span": "4x"}
 
 
 class ScreenTile(NamedTuple):
@@ -71,9 +69,9 @@ class ScreenPlan:
     moving: bool = False  # something still fades
 
 
-def cells(view: View, level: int) -> list[ScreenTile]:
-    """Returns the tiles of `level` that the screen meets, row by row."""
-    r = view.visible(level)
+def cells(view: View, level: int, rim: int = 0) -> list[ScreenTile]:
+    """Returns the tiles of `level` that the screen meets, or a rim around it, pixels of the level, row by row."""
+    r = view.visible(level).grown(rim)
     return [
         ScreenTile(level, x, y)
         for y in range(r.y0 // SCREEN_TILE, (r.y1 - 1) // SCREEN_TILE + 1)
@@ -93,41 +91,16 @@ def near_first(view: View, tiles: list[ScreenTile], x: float, y: float) -> list[
     return sorted(tiles, key=far)
 
 
-class _Pass:
-    """One program over many cells: nine floats a cell, in a buffer that grows."""
-
-    def __init__(self, ctx: moderngl.Context, fragment: str, vertex: str = "canvas.vert") -> None:
-        self._ctx = ctx
-        self.program: Any = ctx.program(shader_source(vertex), shader_source(fragment))
-        self._room_for(128)
-
-    def _room_for(self, rows: int) -> None:
-        self._most = rows
-        self._buffer = self._ctx.buffer(reserve=36 * rows)
-        names = [name for name in ("cell", "source", "span") if name in self.program]
-        sizes = {"cell": "4f", "source": "4f", "span": "1f"}
-        layout = " ".join(sizes[n] if n in names else _SKIPPED[n] for n in sizes) + "/i"
-        self._cells = self._ctx.vertex_array(self.program, [(self._buffer, layout, *names)])
-
-    def draw(self, rows: list[Row]) -> None:
-        if not rows:
-            return
-        if len(rows) > self._most:
-            self._room_for(2 * len(rows))
-        self._buffer.orphan()
-        self._buffer.write(np.array(rows, np.float32))
-        self._cells.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(rows))
-
-
 class Screen:
     """Tiles held on the card, and the passes that draw them.  All calls from the thread that owns the context."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
-        self._paper = _Pass(ctx, "paper.frag", "paper.vert")
-        self._whole = _Pass(ctx, "tile.frag")
-        self._fading = _Pass(ctx, "fade.frag")
-        self._lamp = Lamp(ctx)
+        self._paper = CellPass(ctx, shader_source("paper.vert"), shader_source("paper.frag"))
+        cell = shader_source("canvas.vert")
+        self._whole = CellPass(ctx, cell, shader_source("tile.frag"))
+        self._fading = CellPass(ctx, cell, shader_source("fade.frag"))
+        self._lamp, self._relief = Lamp(ctx), Relief(ctx)
         self._array: Any = None
         self._held: OrderedDict[ScreenTile, _Held] = OrderedDict()
         self._free: list[int] = []
@@ -162,10 +135,12 @@ class Screen:
                 return
             held = self._held[tile] = _Held(self._room(), patch.revision, now)
         self._array.write(patch.pixels, viewport=(area.x0, area.y0, held.layer, area.width, area.height, 1))
+        self._relief.take(held.layer, area, patch.heights, self._array.size)
         self._uploads += 1
         alpha = patch.pixels[..., 3]
         held.opaque = bool(alpha.min() == 255) and (whole or held.opaque)
-        held.empty = not alpha.any() and (whole or held.empty)
+        bare = not alpha.any() and (patch.heights is None or not patch.heights.any())
+        held.empty = bare and (whole or held.empty)
         held.revision = max(held.revision, patch.revision)
         self._held.move_to_end(tile)
 
@@ -188,21 +163,29 @@ class Screen:
 
     def draw(self, plan: ScreenPlan) -> None:
         """Draws the canvas."""
-        view = plan.view
+        view, light = plan.view, plan.light
         self._set_uniforms(view, plan.frame, plan.colour)
         size, free = (view.width, view.height), free_part(view, plan.insets)
         self.ctx.viewport, self.ctx.scissor = (0, 0, *size), free
         self.ctx.disable(moderngl.BLEND)
         self._paper.draw(plan.paper)
-        if plan.light is None:
+        if light is None:
             self._draw_tiles(plan)
         elif self._array is not None:
             target = self._lamp.begin(size)
+            self._set_rim(RIM)
             if plan.colour is not None:
                 self._paper.draw(plan.paper)
             self._draw_tiles(plan)
-            self._lamp.show(plan.light, target, free)
+            self._set_rim(0)
+            self._lamp.raise_from(_ground(light.height, plan.colour))
+            self._relief.draw(plan.whole + plan.fading, self._array, light.height, (size, view.matrix(), RIM))
+            self._lamp.show(light, target, free)
         self.ctx.scissor = None
+
+    def _set_rim(self, pixels: int) -> None:
+        for one in (self._paper, self._whole, self._fading):
+            one.program["rim"] = pixels
 
     def _draw_tiles(self, plan: ScreenPlan) -> None:
         view = plan.view
@@ -232,7 +215,7 @@ class Screen:
         light: tuple[float, ...] = (LIGHT,) * 3
         dark: tuple[float, ...] = (DARK,) * 3
         if colour is not None:
-            light = dark = tuple(int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+            light = dark = _rgb(colour)
         p["light"], p["dark"], p["contrast"] = light, dark, CONTRAST if colour is None else 0.0
 
     def plan(
@@ -251,7 +234,7 @@ class Screen:
         """
         plan = ScreenPlan(view, frame, insets, self._uploads, paper, light)
         exact = not view.fraction and not view.angle
-        for tile in cells(view, view.shown_level):
+        for tile in cells(view, view.shown_level, 0 if light is None else 2 * RIM):
             held = self._touch(tile)
             up = next((n for n in range(1, ANCESTORS) if tile.ancestor(n) in self._held), 0)
             weight = 0.0 if held is None else min(1.0, (now - held.born) / FADE) if up else 1.0
@@ -294,6 +277,17 @@ class Screen:
                 plan.whole.append((*_corner(view, child, False), 1.0, held.layer, -1, 0.0, 0.0, 1.0))
             elif depth > 1:
                 self._descendants(plan, view, child, depth - 1)
+
+
+def _ground(height: str, colour: str | None) -> float:
+    """Returns how high paper of a colour lies where there is nothing but it, 0 to 1."""
+    if colour is None or height not in (BY_ALPHA, BY_PICTURE):
+        return 0.0
+    return 1.0 if height == BY_ALPHA else sum(part * of for part, of in zip(_rgb(colour), LUMINANCE, strict=True))
+
+
+def _rgb(colour: str) -> tuple[float, ...]:
+    return tuple(int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
 
 
 def free_part(view: View, insets: Insets) -> tuple[int, int, int, int]:

@@ -46,7 +46,7 @@ def _export_again(desk: Desk, path: Path | None) -> None:
     if path is None:
         desk.asked.show("export")
     else:
-        desk.post(Export(path, desk.asked.export_level))
+        desk.post(Export(path, desk.asked.export_level, light=desk.asked.export_light))
 
 
 # By what a notice is about: what to do, with the notice's file.

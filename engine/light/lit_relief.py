@@ -10,10 +10,10 @@ import math
 
 import numpy as np
 
-from engine.light.light import DIFFUSE, RIM, Light
+from engine.light.light import DIFFUSE, LUMINANCE, RIM, Light
 from engine.numeric.kernel import forced, kernel
 
-_RED, _GREEN, _BLUE = np.float32(0.2126), np.float32(0.7152), np.float32(0.0722)
+_RED, _GREEN, _BLUE = (np.float32(part) for part in LUMINANCE)
 
 
 def luminance(planes: np.ndarray) -> np.ndarray:

@@ -32,6 +32,7 @@ from engine.studio.textures.texture_requests import LabRequest, MatchRequest, Re
 
 if TYPE_CHECKING:
     from engine.brush.settings import Brush
+    from engine.light.light import Light
     from engine.painting.commands import Command, DefineTexture
     from engine.painting.guiding.guides import Guide
     from engine.painting.places import Bookmark
@@ -85,11 +86,12 @@ class Save:
 
 @dataclass(frozen=True, slots=True)
 class Export:
-    """The frame at `level` (or the rectangle `area` of that level), as .png or .tif."""
+    """The frame at `level` (or the rectangle `area` of that level), as .png or .tif; `light`: that it is lit by."""
 
     path: Path
     level: int = 0
     area: Rect | None = None
+    light: Light | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,9 +139,11 @@ class Abandon:
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """The screen tiles wanted, most urgent first: (level, x, y, revision already held or -1).  The newest counts."""
+    """The screen tiles wanted, most urgent first: (level, x, y, revision already held or -1); `heights`: what the
+    heights are taken from that are wanted with them, as `Light.height` has it.  The newest counts."""
 
     tiles: tuple[tuple[int, int, int, int], ...]
+    heights: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,12 +55,14 @@ class Ready:
 @dataclass(frozen=True, slots=True)
 class Patch:
     """Pixels of the rectangle `area` (within 0..256) of screen tile `tile` (level, x, y): uint8 (h, w, 4),
-    premultiplied, read-only.  `revision` counts what has happened to the painting."""
+    premultiplied, read-only.  `revision` counts what has happened to the painting.  `heights`: of its relief, while it
+    is looked at in the light: uint16 (h, w), white is HIGHEST."""
 
     tile: tuple[int, int, int]
     area: Rect
     pixels: np.ndarray
     revision: int
+    heights: np.ndarray | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -312,6 +314,8 @@ Result = (
     | Tint
     | Held
 )
+
+HIGHEST = 65535  # of the heights of patches
 
 
 def frozen(array: np.ndarray) -> np.ndarray:

@@ -149,6 +149,7 @@ class Studio(Owned):
 
     def look(self, request: q.Look) -> None:
         """Takes over what is wanted on the screen."""
+        self.easel.viewer.heights.want(request.heights)
         self.easel.viewer.sight.look(request)
         if request.tiles:
             self.easel.session.cache.look_at(request.tiles[0][0])

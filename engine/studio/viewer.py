@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from engine.canvas.composite import composite
-from engine.canvas.layers import Layer
+from engine.canvas.layers import Group, Layer
 from engine.canvas.placing.cells import SeenAreas
 from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.checks.owned import Owned
@@ -22,6 +22,7 @@ from engine.strokes.example_stroke import Live
 from engine.strokes.paint_stroke import LiveStroke
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.lit.seen_heights import SeenHeights
 from engine.studio.masked.mask_alone import MaskAlone
 from engine.studio.moving import placed_stroke
 from engine.studio.seen_plan import SeenPlan
@@ -51,6 +52,7 @@ class Viewer(Owned):
         self._plan = SeenPlan()
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
         self._alone = MaskAlone(self.changed)
+        self.heights = SeenHeights(self.changed)
         self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick, **self._alone.handlers}
 
     @property
@@ -129,18 +131,20 @@ class Viewer(Owned):
         if revision is None:
             return
         pixels = results.frozen(to_premul8(picture))
+        read = piece_reader(key[0], part, self._read, self._read_placed)
+        heights = self.heights.of(_seen_root(self._subject, self.looking), key[0], part, picture, read)
         inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
-        self._subject.send(results.Patch(key, inner, pixels, revision))
+        self._subject.send(results.Patch(key, inner, pixels, revision, heights))
 
     def picture(self, level: int, whole: Rect) -> np.ndarray:
         """Returns what is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
-        live = self._subject.live
-        root = live.root if live is not None else (self.looking or self._subject.session.painting).root
+        live, root = self._subject.live, _seen_root(self._subject, self.looking)
         alone = self._alone.picture(root, level, whole, self._read)
         if alone is not None:
             return alone
         read = piece_reader(level, whole, self._read, self._read_placed)
-        return self.above(level, whole, composite(self._plan.of(root, live), level, whole, read))
+        planned = self._plan.of(root, live)
+        return self.above(level, whole, composite(planned, level, whole, read))
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self._subject.live
@@ -168,6 +172,11 @@ class Viewer(Owned):
         alpha = float(pixel[3])
         r, g, b = (float(min(1.0, max(0.0, v / alpha))) if alpha > 0 else 0.0 for v in pixel[:3])
         self._subject.send(results.Picked((r, g, b), alpha))
+
+
+def _seen_root(subject: Subject, looking: Painting | None) -> Group:
+    """Returns the layers that are seen: those of the stroke in progress, of an earlier state, or of the painting."""
+    return subject.live.root if subject.live is not None else (looking or subject.session.painting).root
 
 
 def _the_same(layer: Layer, painted: Layer) -> bool:

@@ -175,8 +175,8 @@ def test_tiles_are_asked_for_from_the_pointer_outwards():
     assert set(ordered) == set(cells(at, 0))
 
 
-def painted_tiles(screen, at, seed=4):
-    """Uploads smooth paint over four tiles; returns what lies there, float32 (4, 512, 512)."""
+def painted_tiles(screen, at, seed=4, heights=None):
+    """Uploads smooth paint over four tiles, perhaps with heights; returns what lies there, float32 (4, 512, 512)."""
     rng = np.random.default_rng(seed)
     coarse = rng.random((3, 9, 9))
     y, x = np.mgrid[0:512, 0:512] / 64
@@ -185,8 +185,9 @@ def painted_tiles(screen, at, seed=4):
     pixels = np.concatenate([np.rint(255 * ramp), np.full((1, 512, 512), 255)]).astype(np.uint8).transpose(1, 2, 0)
     for row in (0, 1):
         for column in (0, 1):
-            part = np.ascontiguousarray(pixels[256 * row :, 256 * column :][:256, :256])
-            screen.upload(Patch((0, column - 1, row - 1), Rect(0, 0, 256, 256), part, 1), at, 0.0)
+            tile = slice(256 * row, 256 * (row + 1)), slice(256 * column, 256 * (column + 1))
+            part, known = np.ascontiguousarray(pixels[tile]), None if heights is None else heights[tile].copy()
+            screen.upload(Patch((0, column - 1, row - 1), Rect(0, 0, 256, 256), part, 1, known), at, 0.0)
     return (pixels.transpose(2, 0, 1) / np.float32(255)).astype(np.float32)
 
 
@@ -198,6 +199,35 @@ def test_the_light_is_that_of_the_law_across_the_seams_of_tiles(screen, light):
     expected = 255 * lit(planes, luminance(planes), light)[:3].transpose(1, 2, 0)
     rows, columns = slice(240 - 239, 240 + 239), slice(320 - 255, 320 + 255)  # all but the rims of screen and paint
     assert abs(picture[rows, columns] - expected[255 - 239 : 255 + 239]).max() <= 1
+
+
+def test_heights_of_tiles_are_finer_than_their_pixels_and_may_be_others(screen):
+    at, light = View(Place(0, 0, 0), 0, 0.0, 400, 300), Light(300, 30, 60, 0.3, "a layer")
+    y, x = np.mgrid[0:512, 0:512]
+    heights = np.rint(40000 + 900 * np.sin(x / 9) * np.cos(y / 7)).astype(np.uint16)  # of two steps of eight bits
+    planes = painted_tiles(screen, at, heights=heights)
+    target = screen.ctx.simple_framebuffer((400, 300))
+    target.use()
+    screen.draw(screen.plan(at, None, 100.0, light=light))
+    picture = np.frombuffer(target.read(), np.uint8).reshape(300, 400, 3)[::-1].astype(int)
+    target.release()
+    expected = 255 * lit(planes, (heights / np.float32(65535)).astype(np.float32), light)[:3].transpose(1, 2, 0)
+    seen = expected[255 - 150 : 255 + 150, 255 - 200 : 255 + 200]  # to the screen's border
+    assert abs(seen - 255 * planes[:3, 106:406, 56:456].transpose(1, 2, 0)).max() > 15
+    assert abs(picture - seen).max() <= 1
+
+
+def test_where_no_heights_have_come_those_of_the_pixels_show(screen):
+    at, light = view(), Light(300, 40, 8, 0.3)
+    painted_tiles(screen, at)
+    plain, _ = shown(screen, at, light=light)
+    painted_tiles(screen, at, heights=np.zeros((512, 512), np.uint16))
+    flat, _ = shown(screen, at, light=light)
+    assert not np.array_equal(flat, plain)
+    assert np.array_equal(flat, shown(screen, at)[0])
+    painted_tiles(screen, at)
+    again, _ = shown(screen, at, light=light)
+    assert np.array_equal(again, plain)
 
 
 def test_what_is_flat_and_what_is_no_paint_stay_as_they_are_in_the_light(screen):

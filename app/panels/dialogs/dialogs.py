@@ -168,6 +168,9 @@ class ExportDepth:
 
     title = "Export picture"
 
+    def __init__(self, desk: Desk) -> None:
+        self._lit = desk.light.on
+
     def draw(self, desk: Desk) -> bool:
         """Draws it into the present window."""
         em = imgui.get_font_size()
@@ -180,9 +183,12 @@ class ExportDepth:
         w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
         size = desk.known.frame.zoomed(desk.asked.export_level)
         imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")
+        _, self._lit = w.tick("As lit", self._lit, "In the light of View > Light, with its sun, depth and gloss")
         imgui.spacing()
         chosen = w.default_button("Choose file…", "Choose where to write it", width=em * 8)
         if chosen:
+            desk.light.keep_to(desk.known.scene)
+            desk.asked.export_light = desk.light.light if self._lit else None
             desk.asked.show("export to")
         imgui.same_line()
         return not (w.text_button("Cancel", "Go back", width=em * 7) or chosen)
@@ -293,7 +299,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "new": lambda desk: NewPainting(),
     "open": file_browser.opening,
     "save as": file_browser.saving,
-    "export": lambda desk: ExportDepth(),
+    "export": ExportDepth,
     "export to": file_browser.exporting,
     "film": lambda desk: FilmDialog(),
     "select_change": lambda desk: ChangeSelection(),

@@ -205,8 +205,8 @@ def saving(desk: Desk) -> SystemDialog | Browser:
 
 def exporting(desk: Desk) -> SystemDialog | Browser:
     """Asks where to export the picture."""
-    start, level = _folder(desk) / f"{desk.known.stem}.png", desk.asked.export_level
-    return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level)))
+    start, level, light = _folder(desk) / f"{desk.known.stem}.png", desk.asked.export_level, desk.asked.export_light
+    return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level, light=light)))
 
 
 def filming(desk: Desk) -> SystemDialog | Browser:

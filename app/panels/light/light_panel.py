@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
-from app.desk.lit.light_state import sun_at
+from app.desk.lit.light_state import height_layers, sun_at
 from app.panels.controls import widgets as w
 from engine.light.light import BY_ALPHA, BY_PICTURE
 
@@ -29,7 +29,8 @@ def light_box(desk: Desk) -> tuple[float, float, float, float] | None:
     if not desk.panels or not desk.light.on:
         return None
     em, frame, gap = imgui.get_font_size(), imgui.get_frame_height(), imgui.get_style().item_spacing.y
-    wide, high = _WIDE * em, _DOME * em + 4 * (frame + gap) + 3 * gap
+    rows = 4 if desk.light.light.height in (BY_PICTURE, BY_ALPHA) else 5
+    wide, high = _WIDE * em, _DOME * em + rows * (frame + gap) + 3 * gap
     _, _, right, bottom = desk.free_area()
     margin = 4 * desk.scale
     return right - wide - margin, bottom - high - margin, wide, high
@@ -52,7 +53,21 @@ def draw_light(desk: Desk) -> None:
     changed, gloss = w.slider("Gloss", state.light.gloss, (0.0, 1.0), "How wet the paint looks")
     if changed:
         state.light = replace(state.light, gloss=round(gloss, 2))
-    picked = w.segments("height of light", state.light.height, _SOURCES)
+    _source(desk)
+
+
+def _source(desk: Desk) -> None:
+    """What stands high: of all that is seen, or of a layer that is chosen below."""
+    state, layers = desk.light, height_layers(desk.known.scene)
+    now = state.light.height
+    by_layer = now not in (BY_PICTURE, BY_ALPHA)
+    first = now if by_layer or not layers else layers[0]
+    of_layer = (first, "Layer", "Light paint of one layer stands higher; it may be hidden, or the land's height")
+    picked = w.segments("height of light", now, (*_SOURCES, of_layer) if layers else _SOURCES)
+    if by_layer:
+        wide = imgui.get_content_region_avail().x
+        options = [(name, name) for name in layers]
+        picked = w.choice("layer of light", now, options, "Whose light paint stands higher", wide) or picked
     if picked is not None:
         state.light = replace(state.light, height=picked)
 

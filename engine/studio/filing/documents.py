@@ -153,4 +153,4 @@ def save(
 def write_picture(request: q.Export, painting: Painting) -> None:
     """Writes the frame, or the rectangle asked for, of a painting grown to its end, as a picture; WriteError if that
     failed."""
-    export.export(request.path, export.Picture(painting, request.level, request.area))
+    export.export(request.path, export.Picture(painting, request.level, request.area, light=request.light))

@@ -1,0 +1,1 @@
+"""The heights that the light in the window needs."""
