@@ -6,8 +6,6 @@ they come from; with a rim, so that it has them at the screen's border, too.
 
 from __future__ import annotations
 
-from typing import Any
-
 import moderngl
 
 from app.canvas.shader_files import shader_source
@@ -22,7 +20,7 @@ class Lamp:
         # The files are read at the start, before the window waits for none; the rest is made when it is asked for.
         self._vertex = shader_source("light.vert")
         self._fragment = shader_source("light.frag").replace("DIFFUSE", repr(DIFFUSE)).replace("RIM", str(RIM))
-        self._program: Any = None
+        self._program: moderngl.Program | None = None
         self._aside: list[moderngl.Framebuffer] = []  # the picture and its heights
         self._drawn: list[moderngl.Texture] = []  # what is in these
 
@@ -56,6 +54,7 @@ class Lamp:
         """Lays what was drawn aside over a part of the target, lit."""
         target.use()
         program = self._program
+        assert program is not None
         program["slope"], program["sun"], program["gloss"] = light.slope, light.sun, light.gloss
         self._ctx.scissor = part
         self._ctx.enable(moderngl.BLEND)

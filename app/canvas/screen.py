@@ -15,10 +15,10 @@ import moderngl
 
 from app.canvas.cell_pass import CellPass, Row
 from app.canvas.lamp import Lamp
-from app.canvas.relief import Relief
 from app.canvas.shader_files import shader_source
+from app.canvas.tile_heights import TileHeights
 from app.canvas.view import View
-from engine.light.light import BY_ALPHA, BY_PICTURE, LUMINANCE, RIM, Light
+from engine.light.light import BRIGHTNESS, BY_ALPHA, BY_PICTURE, RIM, Light
 from engine.numeric.address import Rect
 from engine.studio.requests import SCREEN_TILE
 from engine.studio.results import Patch
@@ -100,7 +100,7 @@ class Screen:
         cell = shader_source("canvas.vert")
         self._whole = CellPass(ctx, cell, shader_source("tile.frag"))
         self._fading = CellPass(ctx, cell, shader_source("fade.frag"))
-        self._lamp, self._relief = Lamp(ctx), Relief(ctx)
+        self._lamp, self._heights = Lamp(ctx), TileHeights(ctx)
         self._array: Any = None
         self._held: OrderedDict[ScreenTile, _Held] = OrderedDict()
         self._free: list[int] = []
@@ -135,7 +135,7 @@ class Screen:
                 return
             held = self._held[tile] = _Held(self._room(), patch.revision, now)
         self._array.write(patch.pixels, viewport=(area.x0, area.y0, held.layer, area.width, area.height, 1))
-        self._relief.take(held.layer, area, patch.heights, self._array.size)
+        self._heights.take(held.layer, area, patch.heights, self._array.size)
         self._uploads += 1
         alpha = patch.pixels[..., 3]
         held.opaque = bool(alpha.min() == 255) and (whole or held.opaque)
@@ -179,7 +179,7 @@ class Screen:
             self._draw_tiles(plan)
             self._set_rim(0)
             self._lamp.raise_from(_ground(light.height, plan.colour))
-            self._relief.draw(plan.whole + plan.fading, self._array, light.height, (size, view.matrix(), RIM))
+            self._heights.draw(plan.whole + plan.fading, self._array, light.height, view)
             self._lamp.show(light, target, free)
         self.ctx.scissor = None
 
@@ -283,7 +283,7 @@ def _ground(height: str, colour: str | None) -> float:
     """Returns how high paper of a colour lies where there is nothing but it, 0 to 1."""
     if colour is None or height not in (BY_ALPHA, BY_PICTURE):
         return 0.0
-    return 1.0 if height == BY_ALPHA else sum(part * of for part, of in zip(_rgb(colour), LUMINANCE, strict=True))
+    return 1.0 if height == BY_ALPHA else sum(part * of for part, of in zip(_rgb(colour), BRIGHTNESS, strict=True))
 
 
 def _rgb(colour: str) -> tuple[float, ...]:

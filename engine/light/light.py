@@ -9,7 +9,7 @@ AMBIENT, DIFFUSE = 0.35, 0.65  # parts of a flat place's brightness: from everyw
 SHININESS = 24  # the power of the gloss; `lit_relief.py` and light.frag multiply it out
 RIM = 1  # pixels around a place whose heights its light needs
 BY_PICTURE, BY_ALPHA = "composite", "alpha"  # where heights come from, if not from a layer
-LUMINANCE = 0.2126, 0.7152, 0.0722  # parts of red, green and blue in it
+BRIGHTNESS = 0.2126, 0.7152, 0.0722  # parts of red, green and blue in luminance
 LOWEST, MOST_DEPTH = 1.0, 1000.0
 
 

@@ -10,10 +10,10 @@ import math
 
 import numpy as np
 
-from engine.light.light import DIFFUSE, LUMINANCE, RIM, Light
+from engine.light.light import BRIGHTNESS, DIFFUSE, RIM, Light
 from engine.numeric.kernel import forced, kernel
 
-_RED, _GREEN, _BLUE = (np.float32(part) for part in LUMINANCE)
+_RED, _GREEN, _BLUE = (np.float32(part) for part in BRIGHTNESS)
 
 
 def luminance(planes: np.ndarray) -> np.ndarray:

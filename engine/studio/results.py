@@ -56,7 +56,7 @@ class Ready:
 class Patch:
     """Pixels of the rectangle `area` (within 0..256) of screen tile `tile` (level, x, y): uint8 (h, w, 4),
     premultiplied, read-only.  `revision` counts what has happened to the painting.  `heights`: of its relief, while it
-    is looked at in the light: uint16 (h, w), white is HIGHEST."""
+    is looked at in the light: uint16 (h, w), white is WHITE_HEIGHT."""
 
     tile: tuple[int, int, int]
     area: Rect
@@ -315,7 +315,7 @@ Result = (
     | Held
 )
 
-HIGHEST = 65535  # of the heights of patches
+WHITE_HEIGHT = 65535  # of the heights of patches
 
 
 def frozen(array: np.ndarray) -> np.ndarray:

@@ -53,10 +53,10 @@ def draw_light(desk: Desk) -> None:
     changed, gloss = w.slider("Gloss", state.light.gloss, (0.0, 1.0), "How wet the paint looks")
     if changed:
         state.light = replace(state.light, gloss=round(gloss, 2))
-    _source(desk)
+    _what_stands_high(desk)
 
 
-def _source(desk: Desk) -> None:
+def _what_stands_high(desk: Desk) -> None:
     """What stands high: of all that is seen, or of a layer that is chosen below."""
     state, layers = desk.light, height_layers(desk.known.scene)
     now = state.light.height

@@ -13,7 +13,7 @@ from engine.light.light import BY_ALPHA, BY_PICTURE
 from engine.light.lit_relief import luminance
 from engine.numeric.address import Rect
 from engine.painting.difference import Areas
-from engine.studio.results import HIGHEST, frozen
+from engine.studio.results import WHITE_HEIGHT, frozen
 
 
 class SeenHeights(Owned):
@@ -31,7 +31,7 @@ class SeenHeights(Owned):
                 self._changed(lambda level: None)
 
     def of(self, root: Group, level: int, part: Rect, picture: np.ndarray, read: Read) -> np.ndarray | None:
-        """Returns the heights of a rectangle: uint16 (h, w), white is HIGHEST; None if none are wanted.  `picture`:
+        """Returns the heights of a rectangle: uint16 (h, w), white is WHITE_HEIGHT; None if none are wanted.  `picture`:
         what is seen there, float32 (4, h, w); `read` gives layers."""
         source = self._source
         if source is None:
@@ -42,4 +42,4 @@ class SeenHeights(Owned):
             heights = luminance(picture)
         else:
             heights = luminance(composite(alone(find(root, source), root), level, part, read))
-        return frozen(np.rint(np.clip(heights, 0.0, 1.0) * np.float32(HIGHEST)).astype(np.uint16))
+        return frozen(np.rint(np.clip(heights, 0.0, 1.0) * np.float32(WHITE_HEIGHT)).astype(np.uint16))

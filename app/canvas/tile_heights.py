@@ -5,21 +5,20 @@ They come with the pixels while the light is on.  Where they have not come yet, 
 
 from __future__ import annotations
 
-from typing import Any
-
 import moderngl
 import numpy as np
 
 from app.canvas.cell_pass import CellPass, Row
 from app.canvas.shader_files import shader_source
-from engine.light.light import BY_ALPHA, LUMINANCE
+from app.canvas.view import View
+from engine.light.light import BRIGHTNESS, BY_ALPHA, RIM
 from engine.numeric.address import Rect
 
-_BRIGHT, _ALPHA, _FIRST = (*LUMINANCE, 0.0), (0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0)
-_TILE, _ANCESTOR = 4, 5  # where a row has its layers
+_BRIGHT, _ALPHA, _RED_ALONE = (*BRIGHTNESS, 0.0), (0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0)
+_LAYER, _ABOVE = 4, 5  # where a row has its layers
 
 
-class Relief:
+class TileHeights:
     """All calls from the thread that owns the context.  Nothing is held on the card until heights come."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
@@ -27,7 +26,7 @@ class Relief:
         # The files are read at the start, before the window waits for none.
         self._sources = shader_source("canvas.vert"), shader_source("relief.frag")
         self._pass: CellPass | None = None
-        self._array: Any = None
+        self._array: moderngl.TextureArray | None = None
         self._raised: set[int] = set()  # layers that have heights
 
     def take(self, layer: int, area: Rect, heights: np.ndarray | None, size: tuple[int, int, int]) -> None:
@@ -45,23 +44,23 @@ class Relief:
         if (area.width, area.height) == size[:2]:
             self._raised.add(layer)
 
-    def draw(self, rows: list[Row], tiles: Any, height: str, view: tuple[Any, ...]) -> None:
-        """Draws the heights of cells into what is drawn to; `tiles`: the array of the pixels; `height`: what they are
-        taken from; `view`: size, turn and rim of the screen, as canvas.vert has them."""
+    def draw(self, rows: list[Row], tiles: moderngl.TextureArray, height: str, view: View) -> None:
+        """Draws the heights of cells into what is drawn to, with a rim around the view; `tiles`: the array of the
+        pixels; `height`: what they are taken from."""
         if self._pass is None:
             self._pass = CellPass(self._ctx, *self._sources)
         program = self._pass.program
-        program["size"], program["turn"], program["rim"] = view
+        program["size"], program["turn"], program["rim"] = (view.width, view.height), view.matrix(), RIM
         self._ctx.disable(moderngl.BLEND)
         for array, weights, some in (
-            (self._array, _FIRST, [row for row in rows if self._known(row)]),
+            (self._array, _RED_ALONE, [row for row in rows if self._known(row)]),
             (tiles, _ALPHA if height == BY_ALPHA else _BRIGHT, [row for row in rows if not self._known(row)]),
         ):
-            if some:
+            if array is not None and some:
                 program["weights"] = weights
                 array.filter = tiles.filter
                 array.use(0)
                 self._pass.draw(some)
 
     def _known(self, row: Row) -> bool:
-        return all(layer < 0 or layer in self._raised for layer in (row[_TILE], row[_ANCESTOR]))
+        return all(layer < 0 or layer in self._raised for layer in (row[_LAYER], row[_ABOVE]))
