@@ -31,8 +31,8 @@ class SeenHeights(Owned):
                 self._changed(lambda level: None)
 
     def of(self, root: Group, level: int, part: Rect, picture: np.ndarray, read: Read) -> np.ndarray | None:
-        """Returns the heights of a rectangle: uint16 (h, w), white is WHITE_HEIGHT; None if none are wanted.  `picture`:
-        what is seen there, float32 (4, h, w); `read` gives layers."""
+        """Returns the heights of a rectangle: uint16 (h, w), up to WHITE_HEIGHT; None if none are wanted.
+        `picture`: what is seen there, float32 (4, h, w); `read` gives layers."""
         source = self._source
         if source is None:
             return None
