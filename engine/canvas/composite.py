@@ -25,7 +25,7 @@ from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.portions import Portions, Work, run_through
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
-from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
+from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through, set_in
 from engine.canvas.placing.unpainted import Unpainted
 from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric import blend
@@ -150,12 +150,23 @@ def _pixels(source: Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np.
     if seen.similarity.quarter is not None:  # exact placements in one another are one
         last, inner = source.sources.end(source.placement)
         source, seen = Placed(last, source.sources), inner.through(seen)
-    sources, of, plan, through = source.sources, source.of, source.steps, seen.of(source.placement)
+    sources, of, through = source.sources, source.of, seen.of(source.placement)
     tiles = sources.tiles(of, partial(_tiles_of, sources, read))
     if tiles is not None:
         return looked_coarser(tiles.of(of), level, rect, through)
     if sources.is_own(source.placement):
         return _turns(source, level, rect, read, seen)
+    lies = None if sources.shared is None else sources.shared.lies(of, level, through)
+    if lies is None:
+        return _through(source, level, rect, read, through)
+    part = lies.intersect(rect)
+    pixels = None if part.empty else _through(source, level, part, read, through)
+    return None if pixels is None else set_in(pixels, part, rect)
+
+
+def _through(source: Placed, level: int, rect: Rect, read: Read, through: Seen) -> np.ndarray | None:
+    """Returns what a placement shows that does not show itself: (4, h, w), None if empty."""
+    sources, of, plan = source.sources, source.of, source.steps
     if not source.placement.repeat and not through.whole(level) and sources.turns(of):
         # What is turned in it is not sampled twice, but once, through both similarities.
         part = Rect(0, 0, 0, 0) if through.ends(level) else through.meets(level, rect)
@@ -166,7 +177,8 @@ def _pixels(source: Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np.
         return _picture(plan, at, part, read, UNPLACED)
 
     cell = source.placement.part if source.placement.repeat else None
-    return looked_through(repeated(picture, cell), level, rect, through)
+    shown = picture if sources.shared is None else sources.shared.kept(of, picture)
+    return looked_through(repeated(shown, cell), level, rect, through)
 
 
 def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> np.ndarray | None:

@@ -23,7 +23,7 @@ class SeenPlan:
         held = self._planned if self._live is live else None
         if held is None or (live is None and held.root is not root):
             self.portions.forget()
-            held = self._planned = Planned.of(root, None, self.portions)
+            held = self._planned = Planned.of(root, None, self.portions, None if live is None else live.layer.id)
         self._live = live
         return held
 

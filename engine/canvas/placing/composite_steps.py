@@ -18,9 +18,12 @@ from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.portions import Portions
 from engine.canvas.placing.rounds import by_ids, composed, rounds
 from engine.canvas.placing.self_copies import Tiles
+from engine.canvas.placing.shared.extents import Shared
 from engine.canvas.placing.through import UNPLACED, Seen, seen_first
 from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric import blend
+
+_MANY = 32  # placements from which on it is looked for where what they show lies
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,10 +59,11 @@ Found = list[tuple[CompositeStep, "np.ndarray | Found | None"]]
 class Sources:
     """What placements of a tree show: the steps of each node, as if it were visible, opaque and normal.
 
-    `portions`: where turns are gone on with; None: all are made at once."""
+    `portions`: where turns are gone on with; None: all are made at once.  `painted`: the id of the layer that a stroke
+    in progress lies on."""
 
-    def __init__(self, root: Group, portions: Portions | None = None) -> None:
-        self.portions = portions
+    def __init__(self, root: Group, portions: Portions | None = None, painted: int | None = None) -> None:
+        self.portions, self._painted = portions, painted
         self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
         self._steps: dict[Shown, tuple[CompositeStep, ...]] = {}
         self._turns: dict[Shown, bool] = {}
@@ -76,6 +80,16 @@ class Sources:
     @functools.cached_property
     def _rounds(self) -> set[int]:
         return rounds(self._root, self._nodes)
+
+    @functools.cached_property
+    def shared(self) -> Shared | None:
+        """Gives where what placements show lies, and its pictures; None where there are few of them."""
+        if sum(isinstance(node, Placement) for node in self._nodes.values()) < _MANY:
+            return None
+        painted = () if self._painted is None else (self._painted,)
+        nodes: dict[int | None, Node] = {None: self._root}
+        nodes.update(self._nodes)
+        return Shared(nodes, self.end, frozenset((*self._rounds, *painted)))
 
     def steps(self, of: Shown) -> tuple[CompositeStep, ...]:
         """Returns what to composite for a node of an id; None: for all of them."""
@@ -228,17 +242,22 @@ class Planned:
     steps: tuple[CompositeStep, ...]
 
     @classmethod
-    def of(cls, root: Group, held: Planned | None = None, portions: Portions | None = None) -> Planned:
+    def of(
+        cls, root: Group, held: Planned | None = None, portions: Portions | None = None, painted: int | None = None
+    ) -> Planned:
         """Returns a root planned; what is `held` if that is of the same.  `portions`: in which pictures that contain
-        themselves are gone on with, where it is asked for them."""
-        return held if held is not None and held.root is root else cls(root, steps_of(root, portions))
+        themselves are gone on with, where it is asked for them.  `painted`: the id of the layer that a stroke in
+        progress lies on."""
+        return held if held is not None and held.root is root else cls(root, steps_of(root, portions, painted))
 
 
-def steps_of(root: Group | Planned, portions: Portions | None = None) -> tuple[CompositeStep, ...]:
+def steps_of(
+    root: Group | Planned, portions: Portions | None = None, painted: int | None = None
+) -> tuple[CompositeStep, ...]:
     """Returns the steps of a root, over its paper."""
     if isinstance(root, Planned):
         return root.steps
-    plan = steps(root, Sources(root, portions))
+    plan = steps(root, Sources(root, portions, painted))
     if root.paper is None:
         return plan
     return (CompositeStep(blend.BLENDS["src-over"], np.float32(1), Paper(root.paper), True), *plan)

@@ -13,7 +13,8 @@ from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.rounds import composed, rounds, shown_in
 
-MOST_DRAWN = 1 << 13  # layers and placements, each as often as it is shown
+MOST_IN_LOOPS = 1 << 13  # layers and placements in what shows itself, each as often as it is shown
+MOST_DRAWN = 1 << 16  # of others: what lies beside the view, or is seen by many, costs little
 MOST_NESTED = 128  # groups and placements in one another
 
 
@@ -37,7 +38,8 @@ def checked_drawable(root: Group, nodes: Mapping[int, Node]) -> bool:
             if number in inside:
                 inside.discard(number)
                 as_one = isinstance(node, Placement) and shown[0] not in round_ and composed(node, nodes[shown[0]])
-                known[number] = _counted(node, [known[one] for one in shown if one in known], as_one)
+                most = MOST_IN_LOOPS if number in round_ else MOST_DRAWN
+                known[number] = _counted(node, [known[one] for one in shown if one in known], as_one, most)
     return goes_round
 
 
@@ -48,15 +50,16 @@ def _of_paint(nodes: Mapping[int, Node]) -> dict[int, tuple[int, int]]:
     return {**dict.fromkeys(paint, (1, 0)), **dict.fromkeys(shown, (2, 1))}
 
 
-def _counted(node: Node, shown: Iterable[tuple[int, int]], as_one: bool) -> tuple[int, int]:
-    """Returns what a node comes to, from what it shows; `as_one`: it is drawn as one with the placement it shows."""
+def _counted(node: Node, shown: Iterable[tuple[int, int]], as_one: bool, most: int) -> tuple[int, int]:
+    """Returns what a node comes to, from what it shows, `most` of it; `as_one`: it is drawn as one with the placement
+    it shows."""
     found = list(shown)
     deeper = isinstance(node, Group) or (isinstance(node, Placement) and (not as_one or node.part is not None))
     drawn = sum(count for count, _ in found) + (not isinstance(node, Group) and not as_one)
     nested = max((deep for _, deep in found), default=0) + deeper
-    if drawn > MOST_DRAWN:
+    if drawn > most:
         told = "layers and placements to draw"
-        raise LayerError(f"layer {node.name!r}: found {drawn:,} {told} in it, expected at most {MOST_DRAWN:,}")
+        raise LayerError(f"layer {node.name!r}: found {drawn:,} {told} in it, expected at most {most:,}")
     if nested > MOST_NESTED:
         told = "placements and groups in one another"
         raise LayerError(f"layer {node.name!r}: found {nested} {told}, expected at most {MOST_NESTED}")

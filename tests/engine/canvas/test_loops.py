@@ -122,7 +122,7 @@ def test_more_than_anybody_could_wait_for_is_refused_before_it_is_drawn(visible)
     seed = Group(0x1000, "g0", children=(Layer(0x1001, "a"),))
     first = [Group(10, "g1", children=(shows(11, 0x1000, 0), shows(12, 0x1000, 0)), visible=visible), *doubled(60)[1:]]
     assert loops.checked(tree(seed, *first[:8]))
-    with pytest.raises(LayerError, match=r"found \d+,\d+ layers and placements to draw in it, expected at most 8,192"):
+    with pytest.raises(LayerError, match=r"found \d+,\d+ layers and placements to draw in it, expected at most 65,536"):
         loops.checked(tree(seed, *first))
 
 

@@ -1,0 +1,1 @@
+"""What is shown by many placements: where it lies, and its pictures."""
