@@ -87,9 +87,7 @@ class Sources:
         if sum(isinstance(node, Placement) for node in self._nodes.values()) < _MANY:
             return None
         painted = () if self._painted is None else (self._painted,)
-        nodes: dict[int | None, Node] = {None: self._root}
-        nodes.update(self._nodes)
-        return Shared(nodes, self.end, frozenset((*self._rounds, *painted)))
+        return Shared(self._root, self._nodes, self.end, frozenset((*self._rounds, *painted)))
 
     def steps(self, of: Shown) -> tuple[CompositeStep, ...]:
         """Returns what to composite for a node of an id; None: for all of them."""

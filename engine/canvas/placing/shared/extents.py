@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from engine.canvas.evaluate import evaluate_sparse
-from engine.canvas.layers import Layer, Node
+from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.placing.filled import filled_levels
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.sampling import Picture, source_level
@@ -75,24 +75,28 @@ def _by_level(pyramid: Pyramid) -> _Levels | None:
 
 
 class Shared:
-    """What placements of a tree show: where it lies, and its pictures.  `nodes`: by their ids, the root also as None;
-    `end`: the last of exact placements in one another, and how it is seen; `anywhere`: nodes of which nothing is told,
-    as they show themselves, or are painted on at the moment."""
+    """What placements of a tree show: where it lies, and its pictures.  `nodes`: by their ids; `end`: the last of
+    exact placements in one another, and how it is seen; `anywhere`: nodes of which nothing is told, as they show
+    themselves, or are painted on at the moment."""
 
     def __init__(
         self,
-        nodes: Mapping[int | None, Node],
+        root: Group,
+        nodes: Mapping[int, Node],
         end: Callable[[Placement], tuple[Placement, Seen]],
         anywhere: frozenset[int],
     ) -> None:
-        self._nodes, self._end, self._anywhere = nodes, end, anywhere
+        self._root, self._nodes, self._end, self._anywhere = root, nodes, end, anywhere
         self._found: dict[tuple[int, int], Rect | None] = {}
         self._pictures = KeptPictures()
 
     def kept(self, of: int | None, picture: Picture) -> Picture:
         """Returns the picture of a node; of one that is no layer, and does not show itself, with its tiles kept."""
-        node = self._nodes[of]
+        node = self._node(of)
         return picture if isinstance(node, Layer) or node.id in self._anywhere else self._pictures.of(of, picture)
+
+    def _node(self, of: int | None) -> Node:
+        return self._root if of is None else self._nodes[of]
 
     def lies(self, of: int | None, level: int, through: Seen) -> Rect | None:
         """Returns a rectangle of a level outside which nothing is seen of a node through placements; None:
@@ -101,7 +105,7 @@ class Shared:
         if through.repeats:
             return None
         at = source_level(through.similarity, level) if finer is None else level + through.levels + finer
-        inner = self._of(self._nodes[of], at)
+        inner = self._of(self._node(of), at)
         return inner if inner is None or inner.empty else mapped(inner, at, through, level)
 
     def _of(self, node: Node, level: int) -> Rect | None:
