@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import numpy as np
+
 from engine.canvas.layers import Group
 from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.placing.portions import Portions
 from engine.strokes.example_stroke import Live
 
 TURNS = 24  # of a picture that contains itself, made at a time
+_AT_ONCE = 8  # times as many, of a pixel that one waits for
 
 
 class SeenPlan:
@@ -26,6 +31,14 @@ class SeenPlan:
             held = self._planned = Planned.of(root, None, self.portions, None if live is None else live.layer.id)
         self._live = live
         return held
+
+    def by_now(self, made: Callable[[], np.ndarray]) -> np.ndarray:
+        """Returns a small picture at once: of one that contains itself, as far as so many turns show."""
+        for _ in range(_AT_ONCE):
+            picture, whole = self.portions.picture(made)
+            if whole:
+                break
+        return picture
 
     def changed(self) -> None:
         """The stroke in progress, if there is one, has grown or is gone: of the same layers other pixels are read."""

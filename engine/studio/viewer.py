@@ -168,7 +168,7 @@ class Viewer(Owned):
         return kept_planes(layer, level, rect, cache)
 
     def _pick(self, request: q.Pick) -> None:
-        pixel = self.picture(request.level, Rect.at(request.x, request.y, 1, 1))[:, 0, 0]
+        pixel = self._plan.by_now(lambda: self.picture(request.level, Rect.at(request.x, request.y, 1, 1)))[:, 0, 0]
         alpha = float(pixel[3])
         r, g, b = (float(min(1.0, max(0.0, v / alpha))) if alpha > 0 else 0.0 for v in pixel[:3])
         self._subject.send(results.Picked((r, g, b), alpha))

@@ -5,9 +5,11 @@ import pytest
 from test_easel import Window
 
 from engine.brush.settings import Brush
+from engine.canvas.placing import portions
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.studio import requests as q
+from engine.studio import results, seen_plan
 from engine.studio.seen_plan import TURNS
 from engine.studio.sight import tile_rect
 
@@ -76,3 +78,19 @@ def test_a_stroke_over_it_is_seen_point_by_point_and_finished_where_the_pen_rest
     window.studio.do(q.Do(c.Undo()))
     window.work()
     window.check(TILES[0])
+
+
+def test_a_colour_is_picked_of_as_many_turns_as_one_can_wait_for(monkeypatch):
+    """And what is shown there is gone on with after that, to the bit."""
+    window, wanted = opened(), complete(opened(), TILES[0])
+    made = []
+    advanced = portions._advanced
+    monkeypatch.setattr(portions, "_advanced", lambda work, turns: made.append(turns) or advanced(work, turns))
+    monkeypatch.setattr(seen_plan, "_AT_ONCE", 2)
+    window.studio.do(q.Pick(LEVEL, AT[0] << LEVEL, AT[1] << LEVEL))
+    assert 1 <= len(made) <= 4
+    assert set(made) == {TURNS}
+    assert isinstance(window.other[-1], results.Picked)
+    while window.studio.pending:
+        window.studio.step()
+    np.testing.assert_array_equal(window.tiles[TILES[0]], wanted)
