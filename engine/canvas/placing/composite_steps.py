@@ -118,30 +118,18 @@ class Sources:
         if (self._root.id if of is None else of) not in self._rounds:
             return None
         if of not in self._loops:
-            ahead = self._reached(of, lambda node: [one.placement.of for one in placements_in(self.steps(node))])
+            ahead = _reached(of, lambda node: [one.placement.of for one in placements_in(self.steps(node))])
             behind: dict[Shown, list[Shown]] = {}
             for node in ahead:
                 for one in placements_in(self.steps(node)):
                     behind.setdefault(one.placement.of, []).append(node)
-            round_ = [node for node in ahead if node in self._reached(of, lambda node: behind.get(node, []))]
+            round_ = [node for node in ahead if node in _reached(of, lambda node: behind.get(node, []))]
             copies = {
                 node: tuple(one.placement for one in placements_in(self.steps(node)) if one.placement.of in round_)
                 for node in round_
             }
             self._loops[of] = copies or None
         return self._loops[of]
-
-    @staticmethod
-    def _reached(of: Shown, ways: Callable[[Shown], Iterable[Shown]]) -> dict[Shown, None]:
-        """Returns the nodes that one comes to from one by at least one way, in their order."""
-        found: dict[Shown, None] = {}
-        waiting = [of]
-        while waiting:
-            for node in ways(waiting.pop()):
-                if node not in found:
-                    found[node] = None
-                    waiting.append(node)
-        return found
 
     def opened(self, of: Shown) -> tuple[CompositeStep, ...]:
         """Returns the steps of a node, with those groups dissolved that lie over the rest as they are."""
@@ -197,6 +185,18 @@ class Sources:
     def source(self, node: Layer | Placement) -> Layer | Placed:
         """Returns what a step of the node has for a source."""
         return node if isinstance(node, Layer) else Placed(node, self)
+
+
+def _reached(of: Shown, ways: Callable[[Shown], Iterable[Shown]]) -> dict[Shown, None]:
+    """Returns the nodes that one comes to from one by at least one way, in their order."""
+    found: dict[Shown, None] = {}
+    waiting = [of]
+    while waiting:
+        for node in ways(waiting.pop()):
+            if node not in found:
+                found[node] = None
+                waiting.append(node)
+    return found
 
 
 def placements_in(plan: Sequence[CompositeStep]) -> Iterator[Placed]:
