@@ -123,9 +123,12 @@ def test_nothing_is_unpickled():
 
 def loaded_by(*words: str) -> set[str]:
     """The modules that Python holds after the command line `words` was run, whatever came of it."""
-    probe = (
-        f"import json, sys, app.__main__ as m\nm.main({list(words)!r})\nprint('\\n' + json.dumps(sorted(sys.modules)))"
-    )
+    return loaded_after(f"import app.__main__ as m; m.main({list(words)!r})")
+
+
+def loaded_after(program: str) -> set[str]:
+    """The modules that Python holds after a program."""
+    probe = f"{program}\nimport json, sys; print('\\n' + json.dumps(sorted(sys.modules)))"
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     environment.pop("DISPLAY", None)
     done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, env=environment, timeout=60)
@@ -142,3 +145,7 @@ def test_the_way_to_the_window_loads_nothing_heavy():
     loaded = loaded_by("no-such-file-here.ora")
     assert {name for name in loaded if name.startswith(("app", "engine"))} <= LIGHT | {"app.cli", "app.cli.outcome"}
     assert not {"numpy", "numba", "argparse", "scipy"} & loaded
+
+
+def test_the_window_is_there_before_what_compiles():
+    assert not {name.split(".")[0] for name in loaded_after("import app.window")} & {"numba", "llvmlite", "scipy"}

@@ -18,8 +18,9 @@ from engine.brush.stamp import Stamp
 from engine.canvas import layers
 from engine.canvas.commit import commit
 from engine.canvas.layers import Group, Layer, Node
-from engine.canvas.node_checks import MAX_NAME, LayerError
+from engine.canvas.node_checks import LayerError
 from engine.canvas.store import Pyramid
+from engine.checks.roles import MAX_NAME
 from engine.files.fault import FileError, TooMuch, reason_of, shown
 from engine.files.images import read_image
 from engine.files.layered.ora_layers import STACK as STACK

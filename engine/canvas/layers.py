@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from engine.canvas.node_checks import (
-    MAX_NAME,
     LayerError,
     allowed,
     check_common,
@@ -27,7 +26,7 @@ from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
-from engine.checks.roles import ASIDE
+from engine.checks.roles import ASIDE, MAX_NAME
 
 if TYPE_CHECKING:
     from engine.canvas.growth import Growth

@@ -7,10 +7,8 @@ import unicodedata
 from collections.abc import Sequence
 from typing import Protocol
 
-from engine.checks.roles import ROLES
+from engine.checks.roles import MAX_NAME, ROLES
 from engine.numeric.blend import BLENDS
-
-MAX_NAME = 200  # characters
 
 
 class LayerError(ValueError):

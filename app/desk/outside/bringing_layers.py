@@ -15,7 +15,7 @@ from app.desk.notices import Notice
 from app.desk.outside.bringing import picture_level
 from app.desk.outside.pictured import free_layer_name, free_stem, free_texture_name
 from app.desk.previews import PAINTING
-from engine.canvas.node_checks import MAX_NAME
+from engine.checks.roles import MAX_NAME
 from engine.files.layered.layer_sheet import FoundGroup, FoundLayers, FoundPicture
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE

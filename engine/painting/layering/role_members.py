@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from engine.canvas.layers import Group, Layer, Node
+from typing import TYPE_CHECKING
+
 from engine.files.strict_json import Fields
+
+if TYPE_CHECKING:  # commands are read before anything is compiled
+    from engine.canvas.layers import Node
 
 _SCALES = 1e-6, 1e9  # pixels of level 0 from black to white
 _SEAS = -16.0, 16.0  # brightness, which may be beyond black and white
@@ -28,10 +32,8 @@ def read_sea(members: Fields, name: str) -> float:
 
 def written_role(node: Node) -> dict[str, str | float]:
     """Tells those members of a node that say something."""
-    if isinstance(node, Group):
-        return {}
-    given = {"role": node.role or None, **({"scale": node.scale, "sea": node.sea} if isinstance(node, Layer) else {})}
-    return {name: value for name, value in given.items() if value is not None}
+    given = {name: getattr(node, name, None) for name in ("role", "scale", "sea")}
+    return {name: value for name, value in given.items() if value not in (None, "")}
 
 
 def role_kept(members: Fields, kind: str) -> dict[str, str | float]:
