@@ -7,7 +7,8 @@ V is the oldest version of the format that knows all that the recording tells.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
@@ -85,13 +86,29 @@ class Header:
         return {"inkfall": version, "frame": frame, "seed": self.seed, **thawed(self.extra), **other}
 
 
+class ToldCommands(Sequence[Command]):
+    """Commands of which some are kept as the lines of a recording that tell them.  `version`: of the format, the newest
+    that one needs; 1 where there is none."""
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def version(self) -> int:
+        """Tells it."""
+
+    @abstractmethod
+    def lines(self) -> Iterator[str]:
+        """Yields the lines, without their ends."""
+
+
 @dataclass(frozen=True, slots=True)
 class Recording:
     """Header and commands.  `places`: the line of each command in the file it came from, if it came from one;
     `folder`: what paths in it are relative to."""
 
     header: Header = field(default_factory=Header)
-    commands: tuple[Command, ...] = ()
+    commands: Sequence[Command] = ()
     places: tuple[int, ...] = ()
     folder: Path | None = None
     name: str = "recording"
@@ -107,9 +124,13 @@ class Recording:
 
     def lines(self) -> Iterator[str]:
         """Yields the file's lines, without their ends."""
-        yield dumps(self.header.to_json(max(map(version_of, self.commands), default=1)))
-        for command in self.commands:
-            yield dumps(to_json(command))
+        told = self.commands
+        if isinstance(told, ToldCommands):
+            version, lines = told.version, told.lines()
+        else:
+            version, lines = max(map(version_of, told), default=1), (dumps(to_json(command)) for command in told)
+        yield dumps(self.header.to_json(version))
+        yield from lines
 
 
 def version_of(command: Command) -> int:

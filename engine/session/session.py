@@ -26,6 +26,7 @@ from engine.painting.textures import Around, recorded
 from engine.painting.value import Painting, blank, header_for
 from engine.session.apply import STEPS, apply
 from engine.session.history import History
+from engine.session.logged.command_log import CommandLog
 from engine.session.room import Room
 from engine.session.steps import Steps
 from engine.strokes.example_stroke import Live, kind_of
@@ -60,7 +61,7 @@ class Session(Owned):
         self.cache = cache if cache is not None else TileCache(memory.cache_share())
         self.folder = folder
         self.pictures: Mapping[str, ImageSource] = Map()
-        self.log: list[c.Command] = list(log)
+        self.log = CommandLog(log)
         self._history = history if history is not None else History(memory.history_share())
         self._extra = extra if extra is not None else Map()
         given = self.painting
@@ -129,7 +130,7 @@ class Session(Owned):
     def recording(self) -> Recording:
         """Returns all that was done, as a recording that gives this painting."""
         header = replace(header_for(self.painting), extra=self._extra)
-        return Recording(header, tuple(self.log), folder=self.folder)
+        return Recording(header, self.log.now(), folder=self.folder)
 
     def around(self, lent: ImageSource | None = None) -> Around:
         """Returns what definitions find around them: pictures of textures by their sha, wherever their files are

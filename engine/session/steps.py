@@ -73,7 +73,7 @@ class Steps(Owned):
         """Takes in what was added to the log since; a definition that took the place of the last one, too."""
         again = self._read - 1 if self._read and isinstance(log[self._read - 1], c.DefineTexture) else self._read
         for index in range(again, len(log)):
-            self._take(index, log[index])
+            self._take(index, log)
         self._read = len(log)
 
     @property
@@ -114,7 +114,8 @@ class Steps(Owned):
         """Gives what each layer came to, by its id in `root`."""
         return self._now.pasts
 
-    def _take(self, index: int, command: c.Command) -> None:
+    def _take(self, index: int, log: Sequence[c.Command]) -> None:
+        command = log[index]
         if isinstance(command, c.DefineTexture):
             self._textures = self._textures.set(command.name, command)
         elif isinstance(command, c.Undo):
@@ -123,7 +124,7 @@ class Steps(Owned):
             self._travel(command.count, self._undone, self._done, True)
         elif type(command) in STEPS:
             before, number = self._now, 1 + len(self._done)
-            self._now = self._after(LoggedStep(index, number, command, self._textures))
+            self._now = self._after(LoggedStep(index, number, log, self._textures))
             self._done.append(before)
             self._undone.clear()
         else:

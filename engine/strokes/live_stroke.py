@@ -24,6 +24,7 @@ from engine.strokes.mask_painting import sheet_for
 from engine.strokes.wrapping import wrapped
 
 POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have
+_NO_MEMBERS = Map[str, object]()  # one for all strokes: a long session has a million
 
 
 class Drawn:
@@ -62,7 +63,7 @@ class Drawn:
         self.limit = Limit.of(painting.selection, level, cache, self.layer.wrap)
         self.dropped = 0
         self.areas: list[Rect] = []
-        self.extra: Map[str, Any] = Map()
+        self.extra: Map[str, Any] = _NO_MEMBERS
         self.asked: int | None = None
         self._named, self.onto = layer, onto
         self._points: list[np.ndarray] = []

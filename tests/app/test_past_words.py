@@ -15,7 +15,7 @@ STROKE = {"do": "stroke", "points": [[1, 1]]}
 
 
 def step(number, command):
-    return told(LoggedStep(number, number + 1, c.parse(command), Map()), 0)
+    return told(LoggedStep(number, number + 1, {number: c.parse(command)}, Map()), 0)
 
 
 WORDS = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -28,14 +28,19 @@ from engine.session.picturing import picture_of
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LoggedStep:
-    """`index`: the place of its command in the log, from 0; `number`: how many steps were done with it, from 1;
+    """`index`: the place of its command in the `log`, from 0; `number`: how many steps were done with it, from 1;
     `textures`: those defined when it was done; `locked`: whether the alpha of a stroke's layer was."""
 
     index: int
     number: int
-    command: c.Command
+    log: Sequence[c.Command]
     textures: Definitions
     locked: bool = False
+
+    @property
+    def command(self) -> c.Command:
+        """Gives its command, which the log may have on disk."""
+        return self.log[self.index]
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -46,7 +46,7 @@ class Document:
     painting: Painting
     name: str = ""
     path: Path | None = None
-    log: tuple[c.Command, ...] = ()
+    log: Sequence[c.Command] = ()
     folder: Path | None = None
     header: Header = field(default_factory=Header)
     base: Painting | None = None
@@ -80,7 +80,7 @@ def held_by(session: Session, known: bool = True) -> Document:
     """Returns what a session holds; `known`: its log leads from nothing to the painting."""
     return Document(
         session.painting,
-        log=tuple(session.log),
+        log=session.log.now(),
         folder=session.folder,
         header=session.recording().header,
         base=session.base,

@@ -209,7 +209,7 @@ class _Base:
         base = told if isinstance(told, dict) else {}
         self._commands = story.commands
         self._file: Path | None = None
-        self.log: tuple[c.Command, ...] | None = None
+        self.log: Sequence[c.Command] | None = None
         self.header = header_of(base)
         self.folder: Path | None = None
         self.name = ""
@@ -242,7 +242,7 @@ class _Base:
         return Session(painting, log=log, folder=self.folder, history=history, extra=header.extra)
 
 
-def _commands(path: Path) -> tuple[c.Command, ...] | None:
+def _commands(path: Path) -> Sequence[c.Command] | None:
     """Returns the commands that led to a painting's file; None if it tells none, or not all."""
     try:
         with open(path, "rb") as file:

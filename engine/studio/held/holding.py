@@ -8,7 +8,6 @@ from engine.canvas.layers import layers
 from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.keeping.spill import spill
-from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.studio.easel import Easel
@@ -48,7 +47,7 @@ def held_by(session: Session) -> tuple[tuple[str, int], ...]:
         ("Undo", session.history.held),
         ("What is on the screen", session.cache.held),
         ("Pictures", _pictures(painting)),
-        ("Strokes as they were drawn", sum(x.points.nbytes for x in session.log if isinstance(x, c.Stroke))),
+        ("Strokes as they were drawn", session.log.held),
     )
 
 

@@ -44,7 +44,7 @@ class Past:
     header: Header
     folder: Path | None
     base: Painting | None
-    commands: tuple[c.Command, ...]
+    commands: Sequence[c.Command]
     textures: tuple[Texture, ...]
     unsaved: bool
 
@@ -55,7 +55,7 @@ class Begun:
 
     head: Members
     continued: Continued
-    commands: tuple[c.Command, ...]
+    commands: Sequence[c.Command]
 
     def until(self, commands: Sequence[c.Command]) -> Continued:
         """Returns what tells of all `commands`, of which those that it has are the first; but for the last of those, if

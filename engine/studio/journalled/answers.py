@@ -136,7 +136,7 @@ class Answers(Owned):
         name = str(self._journal.entry.head.get("name") or "") if easel.path is None else easel.path.name
         header, textures = session.recording().header, tuple(session.painting.textures.values())
         base = session.base if made is None else None
-        return Past(easel.path, name, header, session.folder, base, tuple(session.log), textures, easel.modified)
+        return Past(easel.path, name, header, session.folder, base, session.log.now(), textures, easel.modified)
 
     def _go_on(self, begun: Begun) -> None:
         """The same painting goes on in an entry that was begun anew."""
