@@ -52,9 +52,9 @@ class Camera:
 
 def camera_before(level: int, rect: Rect, land: Land, size: tuple[int, int]) -> Camera:
     """Returns a camera before a rectangle, which sees all of it."""
-    fov, tilt, azimuth = 50.0, -24.0, 18.0
+    fov, tilt, azimuth = 50.0, -15.0, 18.0
     across = math.hypot(rect.width, rect.height) * max(1.0, 1.25 * size[1] / size[0])
-    away = 0.62 * across / math.tan(math.radians(fov) / 2)
+    away = 0.56 * across / math.tan(math.radians(fov) / 2)
     flat = away * math.cos(math.radians(tilt))
     turn = math.radians(azimuth)
     x = Fraction(rect.x0 + rect.x1, 2) - Fraction(flat * math.sin(turn))

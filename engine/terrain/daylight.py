@@ -14,6 +14,7 @@ from engine.terrain.caster import between, nearest_land
 SUN_X, SUN_Y, SUN_Z, CONE, HAZE, SEA, TOP_HEIGHT, FARTHEST, FROM_SAMPLE, TO_SAMPLE = range(10)
 _SUN_RADIUS = 0.018  # radians: larger than the sun's, as haze makes it
 _DARKEST = 0.42  # of the sky's light that reaches the deepest hollow
+_MELTING = 12000.0  # an eighth of the farthest, the window's half, is seen by a twentieth
 _TURN = 6.283185307179586
 
 
@@ -79,12 +80,23 @@ def _hazy(out: np.ndarray, t: float, d: np.ndarray, light: np.ndarray, haze: flo
 
 
 @inlined
+def _melted(out: np.ndarray, t: float, d: np.ndarray, numbers: np.ndarray, sky: np.ndarray) -> None:
+    """Lets the land become the sky where the coarsest window ends, which would be an edge else."""
+    part = 1.0 - math.exp(-_MELTING * (t / numbers[FARTHEST]) ** 4)
+    _sky(d, numbers[:3], sky)
+    for c in range(3):
+        out[c] += part * (sky[c] - out[c])
+
+
+@inlined
 def _random(px: int, py: int, k: int) -> int:
-    """A number of 0..2^20 - 1 by pixel and sample."""
-    v = (px * 73856093) ^ (py * 19349663) ^ (k * 83492791)
+    """A number of 0..2^20 - 1 by pixel and sample: two of ten bits, which the samples of a pixel spread evenly over the
+    sun (the R2 sequence, from a place of the pixel's own): a shadow's rim has less grain than by chance."""
+    v = (px * 73856093) ^ (py * 19349663)
     v = ((v ^ (v >> 13)) * 1274126177) & 0x7FFFFFFF
     v = ((v ^ (v >> 15)) * 668265263) & 0x7FFFFFFF
-    return (v ^ (v >> 11)) & 0xFFFFF
+    v ^= v >> 11
+    return ((v + 773 * k) & 1023) | ((((v >> 10) + 583 * k) & 1023) << 10)
 
 
 @inner
@@ -189,6 +201,7 @@ def _seen(
     else:
         _ground(heights[w], colours[w], (p[0] - places[w, 0]) / s, (p[1] - places[w, 1]) / s, wide, light, vis, out)
     _hazy(out, t, d, light, haze)
+    _melted(out, t, d, numbers, other)
 
 
 @kernel

@@ -18,7 +18,7 @@ from engine.terrain.plane import ALPHA, COMPOSITE, DEEP, Land
 
 _OVERVIEW = 192  # pixels of the longer side of what is looked at to know how high the land is
 _ROCK, _DARK_ROCK = (0.205, 0.175, 0.148), (0.115, 0.102, 0.095)
-_GRASS, _DRY_GRASS = (0.070, 0.105, 0.030), (0.150, 0.135, 0.055)
+_GRASS, _DRY_GRASS = (0.052, 0.098, 0.030), (0.120, 0.125, 0.058)
 _SAND, _SNOW = (0.32, 0.26, 0.17), (0.84, 0.87, 0.92)
 _TREELINE, _SNOWLINE, _BEACH = 0.46, 0.64, 0.035  # parts of the way from the lowest to the highest
 
@@ -87,7 +87,7 @@ def _materials(part: np.ndarray, upright: np.ndarray, near: np.ndarray, hollow: 
     out = dark + tone[:, :, None] * (np.asarray(_ROCK, np.float32) - dark)
     moist = 0.10 * hollow
     grows = _between(_TREELINE + moist - part, 0.0, 0.22) * _between(upright + 0.5 * moist, 0.70, 0.88)
-    dry = np.clip(0.25 + 1.6 * part - 0.7 * hollow, 0.0, 1.0)
+    dry = np.clip(0.10 + 1.5 * part - 0.9 * hollow, 0.0, 1.0)
     grass = np.asarray(_GRASS, np.float32) + dry[:, :, None] * (np.subtract(_DRY_GRASS, _GRASS).astype(np.float32))
     out = out + (0.92 * grows)[:, :, None] * (grass - out)
     out = _mixed(out, _SAND, _between(_BEACH - part, 0.0, 0.02) * _between(upright, 0.80, 0.94))

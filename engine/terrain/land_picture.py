@@ -17,7 +17,7 @@ from engine.terrain.drape import Cover
 from engine.terrain.plane import Land
 
 _ROWS = 8  # of a strip
-_HAZE = 7.0  # frames' widths at which it hides all but a third
+_HAZE = 13.0  # frames' widths at which it hides all but a third
 _EXPOSURE = 0.86
 
 

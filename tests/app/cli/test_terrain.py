@@ -135,6 +135,34 @@ def test_pictures(saved, tmp_path):
     assert not np.array_equal(pixels(out), whole)
 
 
+GREY = {"radius": 400, "hardness": 1, "colour": "#808080", "dynamics": {}}
+PLAIN = {
+    "empty": [],
+    "transparent": [{"do": "layer", "add": "Height"}, {"do": "layer", "set": "Height", "role": "height"}],
+    "flat": [
+        {"do": "layer", "add": "Height"},
+        {"do": "stroke", "brush": GREY, "points": [[20, 20], [40, 30]]},
+        {"do": "layer", "set": "Height", "role": "height"},
+    ],
+}
+
+
+@pytest.mark.parametrize("name", PLAIN)
+def test_land_without_hills_is_ground_below_a_paler_sky(tmp_path, name):
+    painting, out = str(tmp_path / "a.ora"), tmp_path / "a.png"
+    recording = tmp_path / "a.jsonl"
+    head = {"inkfall": 1, "frame": [0, 0, 64, 48], "seed": 1}
+    recording.write_text("".join(json.dumps(line) + "\n" for line in (head, *PLAIN[name])))
+    assert main(["play", str(recording), "--save", painting]) == 0
+    words = "--size", "32x40", "--samples", "1", "--camera", "0,32,40,20,0,0,50"
+    assert main(["terrain", painting, str(out), *words]) == 0
+    seen = pixels(out).astype(int)
+    assert (seen[:4] - seen[-4:]).mean(axis=(0, 1))[2] > 20  # the sky is bluer than the ground
+    steps = np.abs(np.diff(seen, axis=0)).max(axis=(1, 2))
+    assert steps[:17].max() < 12  # where the land ends it melts into the sky
+    assert np.abs(np.diff(seen[-12:], axis=1)).max() < 40  # nothing stands on it
+
+
 WRONG = {
     "below the ground": (["a.png", "--camera", "0,1,1,-5"], "--camera: found a height of -5, expected one above"),
     "a camera too deep": (["a.png", "--camera", "4000,1,1,5"], "--camera: found level 4000, expected at most 1000"),
