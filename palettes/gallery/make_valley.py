@@ -5,6 +5,7 @@ python palettes/gallery/make_valley.py
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import random
@@ -32,7 +33,7 @@ def stroke(brush: dict[str, Any], points: Points, origin: tuple[int, int] = (0, 
 def along(places: list[tuple[float, float]], press: tuple[float, float], hand: random.Random, shake: float) -> Points:
     """A line through places, a point every 12 pixels, not quite steady, its pressure from one to another."""
     out: Points = []
-    for (x0, y0), (x1, y1) in zip(places, places[1:], strict=False):
+    for (x0, y0), (x1, y1) in itertools.pairwise(places):
         for k in range(steps := max(1, round(math.dist((x0, y0), (x1, y1)) / 12))):
             out.append((x0 + (x1 - x0) * k / steps, y0 + (y1 - y0) * k / steps, 0.0))
     out.append((*places[-1], 0.0))
@@ -72,7 +73,11 @@ def mountains(hand: random.Random) -> list[dict[str, Any]]:
         brush = preset("mountain", radius=wide, opacity=strong, flow=0.06)
         made += [stroke(brush, along(line, press, hand, 0.12 * wide)) for line in RANGE]
     spur = preset("ridge", radius=44, flow=0.05, opacity=0.5)
-    spurs = [(240, 40), (310, 130), (330, 210)], [(800, 140), (750, 210), (690, 270)], [(20, 320), (110, 360), (170, 410)]
+    spurs = (
+        [(240, 40), (310, 130), (330, 210)],
+        [(800, 140), (750, 210), (690, 270)],
+        [(20, 320), (110, 360), (170, 410)],
+    )
     made += [stroke(spur, along(list(line), (1.0, 0.3), hand, 6)) for line in spurs]
     hill = preset("mountain", radius=110, opacity=0.24, flow=0.05)
     hills = [(110, 560), (240, 640)], [(800, 500), (930, 620)], [(560, 690), (760, 760)]

@@ -158,8 +158,6 @@ def test_land_without_hills_is_ground_below_a_paler_sky(tmp_path, name):
     assert main(["terrain", painting, str(out), *words]) == 0
     seen = pixels(out).astype(int)
     assert (seen[:4] - seen[-4:]).mean(axis=(0, 1))[2] > 20  # the sky is bluer than the ground
-    steps = np.abs(np.diff(seen, axis=0)).max(axis=(1, 2))
-    assert steps[:17].max() < 12  # where the land ends it melts into the sky
     assert np.abs(np.diff(seen[-12:], axis=1)).max() < 40  # nothing stands on it
 
 

@@ -15,6 +15,7 @@ from engine.terrain.land_picture import Shot, developed, exposed
 from engine.terrain.plane import Land
 
 CELLS = 64
+COVER = Cover(None, -8.0, 8.0)
 
 
 class Hills(Land):
@@ -89,7 +90,7 @@ def marched(windows, ray, step=0.01):
 def windows():
     """Three of hills, which have 64 cells each way."""
     camera = Camera(0, Fraction(32), Fraction(32), 6.0, tilt=-90.0)
-    return windows_of(made(Hills), camera, Cover(None, -8.0, 8.0), 2, cells=CELLS)
+    return windows_of(made(Hills), camera, COVER, 2, cells=CELLS)
 
 
 def test_hits_are_those_of_marching(windows):
@@ -126,7 +127,7 @@ def test_a_finer_window_becomes_the_coarser_one_at_its_rim(windows):
 
 def shown(kind, camera, size=(48, 48), samples=1, finest=0):
     land = made(kind)
-    seen = windows_of(land, camera, Cover(None, -8.0, 8.0), finest, cells=CELLS)
+    seen = windows_of(land, camera, COVER, finest, cells=CELLS)
     shot = Shot(camera, size, samples, sun=(300.0, 80.0))
     return developed(exposed(seen, shot, 64), samples)
 
@@ -152,3 +153,11 @@ def test_pictures_have_the_same_bits_for_one_thread_and_two(monkeypatch):
         pictures.append(shown(Hills, camera, (40, 30), samples=2))
     assert np.array_equal(*pictures)
     assert pictures[0][:4, :, 2].mean() > pictures[0][-4:, :, 2].mean()  # sky above, ground below
+
+
+def test_land_becomes_the_sky_where_it_ends_even_without_haze():
+    camera = Camera(0, Fraction(32), Fraction(32), 40.0, 180.0, 0.0, 3.0)
+    seen = windows_of(made(Letter), camera, COVER, 0, cells=CELLS)
+    light = exposed(seen, Shot(camera, (8, 64), 1, sun=(300.0, 80.0)), 1e9)
+    steps = np.abs(np.diff(light, axis=0)).max(axis=(1, 2))
+    assert steps[30:].max() < 0.1
