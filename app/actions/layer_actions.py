@@ -7,6 +7,7 @@ from collections.abc import Callable
 from app.actions.action import Action as A
 from app.actions.action import active, chosen, next_layer_name, paint_chosen, ready
 from app.desk.desk import Desk
+from app.desk.framing.frame_state import FRAME_TOOL
 from app.desk.known import moved_by
 from app.desk.moving.floating import lift, set_part_down, takes_part
 from app.desk.moving.move_state import TOOL
@@ -68,7 +69,13 @@ def _nudges(x: int, y: int) -> Callable[[Desk], None]:
 
 
 def _floats(desk: Desk) -> bool:
-    return ready(desk) and desk.moving.floating is not None
+    return ready(desk) and (desk.moving.floating is not None or desk.hand.tool == FRAME_TOOL)
+
+
+def _set_down(desk: Desk) -> None:
+    if desk.hand.tool == FRAME_TOOL:
+        desk.hand.use("brush")  # each drag was a step of its own
+    set_part_down(desk)
 
 
 def _is_reference(desk: Desk) -> bool:
@@ -151,8 +158,9 @@ LAYER_ACTIONS: dict[str, A] = {
     "up": A("Nudge up", "Layer/Move", ("Up",), _NUDGE, _nudges(0, -1), chosen),
     "down": A("Nudge down", "Layer/Move", ("Down",), _NUDGE, _nudges(0, 1), chosen),
     "set_down": A(
-        "Set down", "Layer/Move", ("Enter",), "Lay what you moved of the layer where it is now; Escape takes it back",
-        set_part_down, _floats,
+        "Set down", "Layer/Move", ("Enter",),
+        "Lay what you moved of the layer where it is now (Escape takes it back), or end with the frame",
+        _set_down, _floats,
     ),
     "show_layer": A("Show layer", "Layer", (), "Show the layer, and the groups around it", _show, _hidden),
 }  # fmt: skip

@@ -13,6 +13,7 @@ from app.canvas.view import zoom_text
 from app.desk.desk import Desk
 from app.panels import notice_line, selection_chip
 from app.panels.controls import widgets as w
+from app.panels.controls.fitting import ended
 from app.tools.tools import TOOLS
 from engine.studio.held.held_records import Held
 from engine.studio.results import Opening
@@ -57,7 +58,7 @@ def _left(desk: Desk, right: float) -> None:
     held = desk.notices.seen and imgui.is_window_hovered()  # somebody may be about to press one of its buttons
     desk.notices.seen = False
     if _says(desk) and not (held and desk.notices.rows):
-        _message(desk)
+        _message(desk, right)
     elif desk.notices.rows:
         desk.notices.seen = True
         notice_line.draw(desk, right)
@@ -108,15 +109,20 @@ def _says(desk: Desk) -> bool:
     )
 
 
-def _message(desk: Desk) -> None:
-    """Draws it, with a button for what it offers."""
-    text, bad, _, offers = desk.message
+def _message(desk: Desk, right: float) -> None:
+    """Draws it up to `right`, with a button for what it offers; where it is too long, the text ends earlier."""
+    text, bad, _, offered = desk.message
     sign = f"{icons.WARNING}  " if bad else ""
-    imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), sign + text)
+    offers = [offer for offer in offered if ACTIONS[offer].when(desk)]
+    pad = imgui.get_font_size() + 2 * imgui.get_style().frame_padding.x
+    buttons = sum(imgui.calc_text_size(ACTIONS[offer].title).x + pad for offer in offers)
+    shown = ended(sign + text, right - imgui.get_cursor_pos_x() - buttons)
+    imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), shown)
     w.named(text)
+    if shown != sign + text:
+        w.tooltip(text)
     for offer in offers:
-        if ACTIONS[offer].when(desk):
-            _button(desk, offer)
+        _button(desk, offer)
 
 
 def _offer(desk: Desk, text: str, action: str) -> None:
