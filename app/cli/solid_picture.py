@@ -19,21 +19,23 @@ if TYPE_CHECKING:
 
     from engine.solids.mesh import Mesh
     from engine.solids.solid_lookup import Lookup
-    from engine.solids.solid_rendering import Arrangement, Body
+    from engine.solids.solid_rendering import Body
 
 _PIXELS = 64 << 20
 _GROWN = 64  # voxels a side of what grows from an example
 MOST_SAMPLES = 6
+_Facts = dict[str, int | float | list[int]]
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Declares the command's arguments."""
+    from engine.solids.baked import ENOUGH, FEWEST, MOST
     from engine.solids.material_sliders import MATERIALS
     from engine.solids.mesh_files import READERS
 
     known = ", ".join(MATERIALS)
     parser.add_argument("solid", metavar="SOLID", help=f"{known}; a CUBE.npy; or a picture, from which a cube grows")
-    parser.add_argument("out", metavar="OUT.png", help="where the picture goes")
+    parser.add_argument("out", metavar="OUT", help="OUT.png, a picture; or OUT.glb, a mesh in the colours of the solid")
     parser.add_argument(
         "--on",
         metavar="OBJECT",
@@ -42,7 +44,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--turn", type=_angles, default=(25.0, 0.0), metavar="A,B", help="degrees round, and forwards")
     parser.add_argument("--scale", type=_positive, default=0.42, metavar="S", help="of the solid (default 0.42)")
-    parser.add_argument("--size", type=size, default=(1280, 800), metavar="WxH", help="pixels (default 1280x800)")
+    parser.add_argument("--size", type=size, metavar="WxH", help="pixels of a picture (default 1280x800)")
     parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another solid (default 0)")
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a slider of the material; may be repeated"
@@ -50,31 +52,68 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--samples",
         type=match_command.whole(1, MOST_SAMPLES),
-        default=3,
         metavar="N",
-        help="N x N samples of each pixel (default 3)",
+        help="N x N samples of each pixel of a picture (default 3)",
+    )
+    parser.add_argument(
+        "--triangles",
+        type=match_command.whole(FEWEST, MOST),
+        metavar="N",
+        help=f"of a mesh at most; the more, the finer its colours (default {ENOUGH})",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(options: argparse.Namespace) -> int:
     """Carries the command out; returns the exit status."""
-    checked_output(options.out, (".png",))
-    width, height = options.size
+    checked_output(options.out, (".png", ".glb"))
+    facts = _mesh_facts(options) if options.out.lower().endswith(".glb") else _picture_facts(options)
+    told = {"written": options.out} | facts | {"on": options.on}
+    if options.json:
+        print(json.dumps(told))
+    else:
+        print(f"wrote {options.out}: " + ", ".join(f"{name} {value}" for name, value in facts.items()))
+    return DONE
+
+
+def _picture_facts(options: argparse.Namespace) -> _Facts:
+    """Writes the picture; returns what is told of it."""
+    if options.triangles is not None:
+        raise Refused("--triangles: found one for a picture, expected OUT.glb")
+    width, height = options.size or (1280, 800)
     if width * height > _PIXELS:
         raise Refused(f"--size: found {width * height:,} pixels, expected at most {_PIXELS:,}")
-    mesh = _object(options.on)
-    solid = _solid(options)
-    body, scene = _scene(mesh, solid, options)
+    from engine.solids.solid_rendering import framed
+
+    body = _body(options)
+    scene = framed([body])
     with Progress("drawing", height) as tell:
-        pixels = scene.picture(options.size, options.samples, tell)
+        pixels = scene.picture((width, height), options.samples or 3, tell)
     match_command.write(options.out, pixels)
-    facts = {"written": options.out, "size": [width, height], "triangles": len(body.mesh.faces), "on": options.on}
-    if options.json:
-        print(json.dumps(facts))
-    else:
-        print(f"wrote {options.out}: {width} x {height} pixels, {len(body.mesh.faces):,} triangles")
-    return DONE
+    return {"size": [width, height], "triangles": len(body.mesh.faces)}
+
+
+def _mesh_facts(options: argparse.Namespace) -> _Facts:
+    """Writes the mesh; returns what is told of it."""
+    for option in ("size", "samples"):
+        if getattr(options, option) is not None:
+            raise Refused(f"--{option}: found one for a mesh, expected OUT.png")
+    from engine.files.atomic import replacing
+    from engine.files.spatial.glb_writer import GlbMesh, write_glb
+    from engine.solids.baked import ENOUGH, baked, turned_upright
+    from engine.terrain.drape import linear
+
+    body, most = _body(options), options.triangles or ENOUGH
+    if len(body.mesh.faces) > most:
+        raise Refused(f"--triangles: found {most:,}, expected at least the {len(body.mesh.faces):,} of {options.on}")
+    with Progress("dividing", most) as tell:
+        made = baked(body, most, tell)
+    name = os.path.splitext(os.path.basename(options.out))[0]
+    points, normals = turned_upright(made.points), turned_upright(made.normals)
+    rough = 1.0 - 0.8 * body.solid.gloss
+    with replacing(options.out) as file:
+        write_glb(file, GlbMesh(points, normals, made.faces, linear(made.colours), name, rough))
+    return {"triangles": len(made.faces), "vertices": len(made.points), "error": round(made.error, 4)}
 
 
 def _angles(text: str) -> tuple[float, float]:
@@ -151,8 +190,8 @@ def _grown(path: str, options: argparse.Namespace) -> np.ndarray:
     return opaque(np.moveaxis(matched_colours(wanted.oriented, cubes), 0, -1))
 
 
-def _scene(mesh: Mesh, solid: Lookup, options: argparse.Namespace) -> tuple[Body, Arrangement]:
-    from engine.solids.solid_rendering import Body, framed, turning
+def _body(options: argparse.Namespace) -> Body:
+    from engine.solids.solid_rendering import Body, turning
 
-    body = Body(mesh, solid, turning(*options.turn), scale=options.scale).standing()
-    return body, framed([body])
+    mesh = _object(options.on)
+    return Body(mesh, _solid(options), turning(*options.turn), scale=options.scale).standing()

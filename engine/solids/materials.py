@@ -86,7 +86,7 @@ def _marble(seen: Seen, values: Values) -> np.ndarray:
     return _mixed(pale, dark, np.full(len(x), values["green"]))
 
 
-_WOOD: Stops = ((0.0, "#b97f4c"), (0.45, "#a56a3a"), (0.8, "#7c4424"), (0.94, "#552914"), (1.0, "#a87040"))
+_WOOD: Stops = ((0.0, "#98704f"), (0.45, "#866044"), (0.8, "#66432d"), (0.94, "#4a2d1d"), (1.0, "#8a6346"))
 
 
 def _wood(seen: Seen, values: Values) -> np.ndarray:
@@ -102,11 +102,11 @@ def _wood(seen: Seen, values: Values) -> np.ndarray:
     ring = rings - year
     late = year * 0.61803398875 - np.floor(year * 0.61803398875)  # no two years are alike
     fibre = seen.noise((48, 48, 3), 3, 0.6, 7)
-    pore = seen.noise((96, 96, 6), 4, 0.5, 6)
+    pore = seen.noise((160, 160, 7), 4, 0.5, 6)
     dark = ring * (ring + (ring * ring - ring) * late)
     colour = colour_ramp(dark, _WOOD) * (1.0 + values["fibres"] * (0.10 * fibre + 0.10 * slow))[:, None]
     holes = _between(0.24, 0.6, pore) * (0.3 + 0.7 * dark) * values["fibres"]
-    out: np.ndarray = np.clip(_mixed(colour, (0.26, 0.13, 0.06), 0.65 * holes), 0.0, 1.0)
+    out: np.ndarray = np.clip(_mixed(colour, (0.20, 0.12, 0.08), 0.6 * holes), 0.0, 1.0)
     return out
 
 

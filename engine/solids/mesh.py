@@ -23,12 +23,19 @@ class Mesh:
 
 def welded(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Points that are one within a millionth of the size become one; triangles without area go."""
+    first, names = one_places(points)
+    together = names[faces]
+    a, b, c = together.T
+    return points[first], together[(a != b) & (b != c) & (c != a)].astype(np.int32)
+
+
+def one_places(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns of points, of which those within a millionth of the size are at one place, the first at each place, and
+    for each point the number of its place."""
     size = max(float(np.ptp(points, axis=0).max(initial=0.0)), 1e-30)
     keys = np.rint((points - points.min(axis=0, initial=np.inf)) * (1e6 / size)).astype(np.int64)
     _, first, names = np.unique(_packed(keys, 21), return_index=True, return_inverse=True)
-    together = names.reshape(-1)[faces]
-    a, b, c = together.T
-    return points[first], together[(a != b) & (b != c) & (c != a)].astype(np.int32)
+    return first, names.reshape(-1)
 
 
 def unit_sized(points: np.ndarray) -> np.ndarray:

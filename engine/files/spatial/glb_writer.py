@@ -11,19 +11,20 @@ import numpy as np
 
 _VERTICES, _INDICES = 34962, 34963  # what a view is for
 _UINT16, _UINT32, _FLOAT = 5123, 5125, 5126
-_ROUGH = {"metallicFactor": 0.0, "roughnessFactor": 0.95}
 
 
 @dataclass(frozen=True)
 class GlbMesh:
     """A mesh: `positions` (n, 3), y up; `normals` (n, 3) of length 1; `faces` (m, 3), counterclockwise from outside;
-    `colours` (n, 3), linear, 0..1, or None; `extras`: what else is told of it."""
+    `colours` (n, 3), linear, 0..1, or None; `roughness`: 0 mirrors, 1 is dull; `extras`: what
+    else is told of it."""
 
     positions: np.ndarray
     normals: np.ndarray
     faces: np.ndarray
     colours: np.ndarray | None = None
     name: str = "terrain"
+    roughness: float = 0.95
     extras: dict[str, float | str] = field(default_factory=dict)
 
 
@@ -75,12 +76,13 @@ def write_glb(file: BinaryIO, shape: GlbMesh) -> None:
 
 def _document(shape: GlbMesh, packed: _Packed, attributes: dict[str, int], indices: int) -> dict[str, object]:
     node = {"mesh": 0, "name": shape.name} | ({"extras": shape.extras} if shape.extras else {})
+    surface = {"metallicFactor": 0.0, "roughnessFactor": shape.roughness}
     return {
         "asset": {"version": "2.0", "generator": "Inkfall"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [node],
-        "materials": [{"name": shape.name, "pbrMetallicRoughness": _ROUGH}],
+        "materials": [{"name": shape.name, "pbrMetallicRoughness": surface}],
         "meshes": [{"name": shape.name, "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}],
         "accessors": packed.accessors,
         "bufferViews": packed.views,

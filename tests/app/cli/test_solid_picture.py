@@ -3,11 +3,19 @@
 import json
 
 import numpy as np
+import pygltflib
 import pytest
+import trimesh
 from command_line import pixels, refused
 from PIL import Image
 
 from app.__main__ import main
+from engine.solids.baked import baked
+from engine.solids.mesh import Mesh, open_edges
+from engine.solids.mesh_files import read_mesh
+from engine.solids.solid_lookup import Cubed, Procedural
+from engine.solids.solid_rendering import Body, turning
+from engine.terrain.drape import linear
 
 POINTS = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))
 BOX = POINTS + "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
@@ -50,6 +58,45 @@ def test_a_cube_on_a_mesh(tmp_path):
     assert found[27, 24, 0] > 2 * found[27, 24, 2]
 
 
+def test_a_mesh_in_the_colours_of_the_solid(tmp_path, capsys):
+    """Read back: turned, closed, upright, and at each corner the solid's colour as linear light."""
+    (tmp_path / "m.obj").write_text(BOX)
+    out = tmp_path / "o.glb"
+    words = ["--on", str(tmp_path / "m.obj"), "--turn", "30,0", "--triangles", "4000", "--json"]
+    assert main(["solid", "marble", str(out), *words]) == 0
+    told = json.loads(capsys.readouterr().out)
+    mesh = trimesh.load(out, force="mesh", process=False)
+    assert told["triangles"] == len(mesh.faces)
+    assert 2000 < len(mesh.faces) <= 4000
+    whole = mesh.copy()
+    whole.merge_vertices(merge_tex=True, merge_norm=True)
+    assert whole.is_watertight
+    assert abs(whole.volume - 8.0) < 1e-5
+    assert abs(mesh.bounds[0, 1]) < 1e-6  # it stands on the ground, y upwards
+    document = pygltflib.GLTF2().load(str(out))
+    view = document.bufferViews[document.accessors[document.meshes[0].primitives[0].attributes.COLOR_0].bufferView]
+    words16 = np.frombuffer(document.binary_blob(), "<u2", view.byteLength // 2, view.byteOffset).reshape(-1, 4)
+    x, y, z = mesh.vertices.T
+    inside = np.stack([x, -z, y - 1.0], axis=1) @ turning(30.0, 0.0)
+    finest = 0.7 * np.sqrt(24.0 / 4000) * 0.42
+    seen = Procedural("marble").colours(inside * 0.42 + 0.5, finest)
+    assert np.abs((words16[:, :3] / 65535.0) ** (1 / 2.4) - linear(seen) ** (1 / 2.4)).max() < 2e-3
+    assert seen.std() > 0.03
+
+
+def test_edges_are_halved_where_colours_bend(tmp_path):
+    """Two halves of one colour each: triangles gather where they meet, and none gapes."""
+    cube = np.full((48, 2, 2, 3), 0.2, np.float32)
+    cube[24:] = 0.9
+    (tmp_path / "m.obj").write_text(BOX)
+    made = baked(Body(read_mesh(str(tmp_path / "m.obj")), Cubed(cube)), 60_000)
+    height = made.points[made.faces].mean(axis=1)[:, 2]
+    assert made.error < 0.05
+    assert 15_000 < len(made.faces) <= 60_000
+    assert open_edges(Mesh(made.points, made.normals, made.faces)) == 0
+    assert (np.abs(height) < 0.2).mean() > 0.25  # of the surface 0.13
+
+
 def test_what_cannot_be_is_refused(tmp_path, capsys):
     out = tmp_path / "o.png"
     np.save(tmp_path / "flat.npy", np.zeros((4, 4)))
@@ -67,11 +114,15 @@ def test_what_cannot_be_is_refused(tmp_path, capsys):
         ("wood", out, "--turn", "1"),
         ("wood", out, "--scale", "0"),
         ("wood", out, "--size", "100000x100000"),
+        ("wood", tmp_path / "o.glb", "--size", "9x9"),
+        ("wood", tmp_path / "o.glb", "--on", "bust", "--triangles", "1000"),
+        ("wood", out, "--triangles", "5000"),
         *((tmp_path / f"{name}.npy", out) for name in ("flat", "text", "nan", "no")),
         (tmp_path / "m.obj", out),
     ):
         assert "expected" in refused(capsys, "solid", *words) or "no such file" in refused(capsys, "solid", *words)
         assert not out.exists()
+        assert not (tmp_path / "o.glb").exists()
 
 
 @pytest.mark.nightly
