@@ -1,4 +1,7 @@
-"""An object made of a solid, as the card draws it: one texture of three dimensions, one light, one picture."""
+"""An object made of a solid, as the card draws it: one texture of three dimensions, one light, one picture.
+
+While it turns it has one sample a pixel and few triangles, at rest all of them and more samples.
+"""
 
 from __future__ import annotations
 
@@ -21,9 +24,9 @@ class SolidView:
         self._sources = shader_source("solid.vert"), shader_source("solid.frag")
         self._program: moderngl.Program | None = None
         self._solid: moderngl.Texture3D | None = None
-        self._object: moderngl.VertexArray | None = None
+        self._objects: list[moderngl.VertexArray] = []  # all triangles, and those drawn while it turns
         self._held: list[moderngl.Buffer] = []
-        self._frames: tuple[moderngl.Framebuffer, moderngl.Framebuffer] | None = None
+        self._frames: list[moderngl.Framebuffer] = []
         self._carved: Carved | None = None
         self._drawn: tuple[object, ...] = ()
 
@@ -32,7 +35,7 @@ class SolidView:
         width, height = state.room
         if state.carved is None or min(width, height) < 8:
             return
-        told = (state.carved, state.room, state.turn, state.scale)
+        told = (state.carved, state.room, state.turn, state.scale, state.turning)
         if told == self._drawn:
             return
         self._drawn = told
@@ -53,20 +56,21 @@ class SolidView:
             self._solid.repeat_x = self._solid.repeat_y = self._solid.repeat_z = True
             self._solid.filter = moderngl.LINEAR, moderngl.LINEAR
         if before is None or before.corners is not carved.corners:
-            for old in (self._object, *self._held):
-                if old is not None:
-                    old.release()
-            self._held = [self._ctx.buffer(carved.corners.tobytes()), self._ctx.buffer(carved.faces.tobytes())]
+            for drawn in self._objects:
+                drawn.release()
+            for old in self._held:
+                old.release()
+            self._held = [self._ctx.buffer(part.tobytes()) for part in (carved.corners, carved.faces, carved.fewer)]
             layout = [(self._held[0], "3f 3f", "point", "normal")]
-            self._object = self._ctx.vertex_array(self._program, layout, self._held[1])
+            self._objects = [self._ctx.vertex_array(self._program, layout, faces) for faces in self._held[1:]]
 
     def _draw(self, state: SolidState) -> None:
         assert state.carved is not None
         assert self._program is not None
-        assert self._object is not None
         assert self._solid is not None
         width, height = state.room
-        target, picture = self._frames_of(width, height)
+        picture, plain, smooth = self._frames_of(width, height)
+        target = plain if state.turning else smooth
         target.use()
         self._ctx.enable_only(moderngl.DEPTH_TEST)
         target.clear(*_BACK, 1.0)
@@ -76,20 +80,21 @@ class SolidView:
         lens = 1.0 / _REACH * min(1.0, width / height)
         program["lens"] = lens * height / width, -lens  # the picture's first row is the uppermost
         program["turned"] = tuple(turned_by(*state.turn).T.reshape(-1).tolist())
-        self._object.render(moderngl.TRIANGLES)
+        self._objects[state.turning].render(moderngl.TRIANGLES)
         self._ctx.copy_framebuffer(picture, target)
         self._ctx.enable_only(moderngl.NOTHING)
         self._ctx.screen.use()
 
-    def _frames_of(self, width: int, height: int) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
-        """What is drawn to, of several samples, and the picture that imgui shows."""
-        shown = self._gallery.drawn("solid", (width, height))
-        if self._frames is None or self._frames[1].size != (width, height):
-            for old in self._frames or ():
+    def _frames_of(self, width: int, height: int) -> list[moderngl.Framebuffer]:
+        """The picture that imgui shows, and what is drawn to: of one sample a pixel, and of several."""
+        size = width, height
+        shown = self._gallery.drawn("solid", size)
+        if not self._frames or self._frames[0].size != size:
+            for old in self._frames:
                 old.release()
-            samples = min(_SAMPLES, self._ctx.max_samples)
-            size = width, height
-            colours = self._ctx.renderbuffer(size, 3, samples=samples)
-            target = self._ctx.framebuffer([colours], self._ctx.depth_renderbuffer(size, samples=samples))
-            self._frames = target, self._ctx.framebuffer([shown])
+            self._frames = [self._ctx.framebuffer([shown])]
+            for samples in (0, min(_SAMPLES, self._ctx.max_samples)):
+                colours = self._ctx.renderbuffer(size, 3, samples=samples)
+                depths = self._ctx.depth_renderbuffer(size, samples=samples)
+                self._frames.append(self._ctx.framebuffer([colours], depths))
         return self._frames

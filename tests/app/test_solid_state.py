@@ -32,6 +32,7 @@ def test_only_what_is_set_otherwise_is_carved_again():
     assert state.lacks == 48
     other = Carve(state.made, state.name, 4, state.carved).carry_out()
     assert other.corners is state.carved.corners
+    assert other.fewer is state.carved.fewer
     assert not np.array_equal(other.cube, state.carved.cube)
     state.carved, state.name = other, "torus"
     assert Carve(state.made, state.name, 4, other).carry_out().cube is other.cube

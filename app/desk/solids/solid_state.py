@@ -20,13 +20,14 @@ Made = tuple[str, int, tuple[tuple[str, float], ...]]  # a material, its seed an
 @dataclass(frozen=True, slots=True, eq=False)
 class Carved:
     """What there is to show: `cube`: uint8 (z, y, x, 3) of what was `made`; `corners`: float32 (V, 6), places and
-    normals of the object `name`; `faces`: int32 (F, 3)."""
+    normals of the object `name`; `faces`: int32 (F, 3); `fewer`: of those that are drawn while it turns."""
 
     made: Made
     cube: np.ndarray
     name: str
     corners: np.ndarray
     faces: np.ndarray
+    fewer: np.ndarray
 
     @property
     def gloss(self) -> float:
@@ -37,7 +38,8 @@ class Carved:
 @dataclass(slots=True)
 class SolidState:
     """`turn`: degrees about the upright axis, and forwards; `scale`: of the solid; `depth`: of the slice that becomes
-    ink; `room`: pixels of the picture; `busy`: something is being carved; `awaited`: the texture that is to be ink."""
+    ink; `room`: pixels of the picture; `turning`: by hand, right now; `busy`: something is being carved; `awaited`: the
+    texture that is to be ink."""
 
     material: str = "agate"
     name: str = "teapot"
@@ -47,6 +49,7 @@ class SolidState:
     scale: float = 0.42
     depth: float = 0.5
     room: tuple[int, int] = (0, 0)
+    turning: bool = False
     carved: Carved | None = None
     busy: bool = False
     awaited: str = ""

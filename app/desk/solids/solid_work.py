@@ -9,6 +9,8 @@ import numpy as np
 from app.desk.desk import Desk, FileWork
 from app.desk.solids.solid_state import Carved, Made
 
+MOST_TURNING = 24_000  # triangles that are drawn while it turns
+
 
 @dataclass(frozen=True, slots=True)
 class Carve(FileWork):
@@ -23,6 +25,7 @@ class Carve(FileWork):
         """Returns both."""
         from engine.solids.objects import object_named
         from engine.solids.solid_lookup import Procedural
+        from engine.solids.thinning import thinned
 
         held = self.before
         if held is not None and held.made == self.made and len(held.cube) == self.side:
@@ -35,10 +38,10 @@ class Carve(FileWork):
             colours = Procedural(material, seed, dict(values)).colours(places, 1.0 / self.side)
             cube = np.rint(255.0 * np.clip(colours, 0.0, 1.0)).astype(np.uint8).reshape((self.side,) * 3 + (3,))
         if held is not None and held.name == self.name:
-            return Carved(self.made, cube, self.name, held.corners, held.faces)
+            return Carved(self.made, cube, self.name, held.corners, held.faces, held.fewer)
         mesh = object_named(self.name)
         corners = np.concatenate([mesh.points, mesh.normals], axis=1).astype(np.float32)
-        return Carved(self.made, cube, self.name, corners, mesh.faces)
+        return Carved(self.made, cube, self.name, corners, mesh.faces, thinned(mesh, MOST_TURNING))
 
     def arrive(self, desk: Desk, found: Carved) -> None:
         """Shows it."""

@@ -55,7 +55,8 @@ class SolidPanel(Panel):
         imgui.invisible_button("object", ImVec2(*size))
         w.named("object")
         w.tooltip("Drag to turn it; the wheel scales the solid")
-        if imgui.is_item_active():
+        state.turning = imgui.is_item_active()
+        if state.turning:
             moved = imgui.get_io().mouse_delta
             state.drag(_DEGREES * moved.x / desk.scale, _DEGREES * moved.y / desk.scale)
         wheel = imgui.get_io().mouse_wheel if imgui.is_item_hovered() else 0.0
