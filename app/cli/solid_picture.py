@@ -100,14 +100,14 @@ def _mesh_facts(options: argparse.Namespace) -> _Facts:
             raise Refused(f"--{option}: found one for a mesh, expected OUT.png")
     from engine.files.atomic import replacing
     from engine.files.spatial.glb_writer import GlbMesh, write_glb
-    from engine.solids.baked import ENOUGH, baked, turned_upright
+    from engine.solids.baked import ENOUGH, colours_baked, turned_upright
     from engine.terrain.drape import linear
 
     body, most = _body(options), options.triangles or ENOUGH
     if len(body.mesh.faces) > most:
         raise Refused(f"--triangles: found {most:,}, expected at least the {len(body.mesh.faces):,} of {options.on}")
     with Progress("dividing", most) as tell:
-        made = baked(body, most, tell)
+        made = colours_baked(body, most, tell)
     name = os.path.splitext(os.path.basename(options.out))[0]
     points, normals = turned_upright(made.points), turned_upright(made.normals)
     rough = 1.0 - 0.8 * body.solid.gloss

@@ -106,7 +106,7 @@ class _Growing:
         self.points = np.concatenate([self.points, middles])
         self.normals = np.concatenate([self.normals, unit(self.normals[a] + self.normals[b])])
         self.colours = np.concatenate([self.colours, self._seen(middles)])
-        self.faces = _divided(self.faces, between)
+        self.faces = _split_triangles(self.faces, between)
 
     def _named(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """New names for the middles of edges, one for each pair of places."""
@@ -116,7 +116,7 @@ class _Growing:
         return out
 
 
-def _divided(faces: np.ndarray, between: np.ndarray) -> np.ndarray:
+def _split_triangles(faces: np.ndarray, between: np.ndarray) -> np.ndarray:
     """Triangles with the corners `between` theirs, (F, 3), -1 for none: each becomes one to four."""
     count = (between >= 0).sum(axis=1)
     out = [faces[count == 0]]
@@ -148,7 +148,7 @@ def _with_longest(chosen: np.ndarray, of_faces: np.ndarray, lengths: np.ndarray)
         chosen[more] = True
 
 
-def baked(body: Body, most: int = ENOUGH, tell: Callable[[int], None] = lambda done: None) -> Baked:
+def colours_baked(body: Body, most: int = ENOUGH, tell: Callable[[int], None] = lambda done: None) -> Baked:
     """Returns an object's mesh in the colours of its solid, of at most `most` triangles, or as many as it has; turned,
     sized and put as the body is.  `tell` hears how many triangles there are."""
     made = _Growing(body, most)

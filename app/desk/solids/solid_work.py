@@ -23,9 +23,9 @@ class Carve(FileWork):
 
     def carry_out(self) -> Carved:
         """Returns both."""
+        from engine.solids.fewer_triangles import fewer_triangles
         from engine.solids.objects import object_named
         from engine.solids.solid_lookup import Procedural
-        from engine.solids.thinning import thinned
 
         held = self.before
         if held is not None and held.made == self.made and len(held.cube) == self.side:
@@ -41,7 +41,7 @@ class Carve(FileWork):
             return Carved(self.made, cube, self.name, held.corners, held.faces, held.fewer)
         mesh = object_named(self.name)
         corners = np.concatenate([mesh.points, mesh.normals], axis=1).astype(np.float32)
-        return Carved(self.made, cube, self.name, corners, mesh.faces, thinned(mesh, MOST_TURNING))
+        return Carved(self.made, cube, self.name, corners, mesh.faces, fewer_triangles(mesh, MOST_TURNING))
 
     def arrive(self, desk: Desk, found: Carved) -> None:
         """Shows it."""

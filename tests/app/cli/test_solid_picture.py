@@ -10,7 +10,7 @@ from command_line import pixels, refused
 from PIL import Image
 
 from app.__main__ import main
-from engine.solids.baked import baked
+from engine.solids.baked import colours_baked
 from engine.solids.mesh import Mesh, open_edges
 from engine.solids.mesh_files import read_mesh
 from engine.solids.solid_lookup import Cubed, Procedural
@@ -89,7 +89,7 @@ def test_edges_are_halved_where_colours_bend(tmp_path):
     cube = np.full((48, 2, 2, 3), 0.2, np.float32)
     cube[24:] = 0.9
     (tmp_path / "m.obj").write_text(BOX)
-    made = baked(Body(read_mesh(str(tmp_path / "m.obj")), Cubed(cube)), 60_000)
+    made = colours_baked(Body(read_mesh(str(tmp_path / "m.obj")), Cubed(cube)), 60_000)
     height = made.points[made.faces].mean(axis=1)[:, 2]
     assert made.error < 0.05
     assert 15_000 < len(made.faces) <= 60_000

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from engine.solids.depth import draw_triangles
+from engine.solids.fewer_triangles import fewer_triangles
 from engine.solids.objects import object_named
-from engine.solids.thinning import thinned
 
 
 @pytest.mark.parametrize(("name", "most"), [("knot", 8000), ("teapot", 4000)])
 def test_fewer_triangles_cover_the_same(name, most):
     mesh = object_named(name)
-    fewer = thinned(mesh, most)
+    fewer = fewer_triangles(mesh, most)
     assert 0.4 * most < len(fewer) <= most
-    assert np.array_equal(thinned(mesh, len(mesh.faces)), mesh.faces)
+    assert np.array_equal(fewer_triangles(mesh, len(mesh.faces)), mesh.faces)
     for axis in range(3):
         seen = []
         for faces in (mesh.faces, fewer):
@@ -27,4 +27,4 @@ def test_fewer_triangles_cover_the_same(name, most):
 
 def test_a_crowd_of_points_in_one_place_is_no_endless_work():
     mesh = object_named("knot")
-    assert len(thinned(mesh, 1)) <= 1
+    assert len(fewer_triangles(mesh, 1)) <= 1

@@ -10,7 +10,7 @@ _FINEST, _STEP = 200, 0.8  # cells along the object at first, and how many fewer
 _SIDES = np.array((1, 2, 4))
 
 
-def thinned(mesh: Mesh, most: int) -> np.ndarray:
+def fewer_triangles(mesh: Mesh, most: int) -> np.ndarray:
     """Returns triangles between the mesh's own points, int32 (F, 3), at most `most`: all of them if they are so few,
     else points in one cell of a lattice that face alike are one, of which the first stands for all."""
     faces, cells = mesh.faces, float(_FINEST)
