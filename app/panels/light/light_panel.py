@@ -57,17 +57,17 @@ def draw_light(desk: Desk) -> None:
 
 
 def _what_stands_high(desk: Desk) -> None:
-    """What stands high: of all that is seen, or of a layer that is chosen below."""
+    """What stands high: of all that is seen, or of a layer that is chosen above, where it pushes no button away."""
     state, layers = desk.light, height_layers(desk.known.scene)
     now = state.light.height
     by_layer = now not in (BY_PICTURE, BY_ALPHA)
     first = now if by_layer or not layers else layers[0]
     of_layer = (first, "Layer", "Light paint of one layer stands higher; it may be hidden, or the land's height")
-    picked = w.segments("height of light", now, (*_SOURCES, of_layer) if layers else _SOURCES)
+    picked = None
     if by_layer:
-        wide = imgui.get_content_region_avail().x
-        options = [(name, name) for name in layers]
-        picked = w.choice("layer of light", now, options, "Whose light paint stands higher", wide) or picked
+        wide, options = imgui.get_content_region_avail().x, [(name, name) for name in layers]
+        picked = w.choice("layer of light", now, options, "Whose light paint stands higher", wide)
+    picked = w.segments("height of light", now, (*_SOURCES, of_layer) if layers else _SOURCES) or picked
     if picked is not None:
         state.light = replace(state.light, height=picked)
 
