@@ -10,6 +10,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Self, overload
 
+import numpy as np
 from isal import isal_zlib
 
 from engine.files.strict_json import dumps, loads
@@ -190,4 +191,4 @@ def _line(command: Command) -> str:
 def _size(command: Command) -> int:
     """Returns the bytes of memory that a command takes, roughly."""
     points = getattr(command, "points", None)
-    return _OVERHEAD + (0 if points is None else points.nbytes)
+    return _OVERHEAD + (points.nbytes if isinstance(points, np.ndarray) else 0)

@@ -22,6 +22,7 @@ KINDS = (
     lambda n: {"do": "stroke", "origin": [n, 1 << 80], "points": [[n / 3, 0.1, 0.5], [7, n]], "brush": {"radius": 2}},
     lambda n: {"do": "undo", "count": n + 1},
     lambda n: {"do": "layer", "add": f"ä “{n}”"},
+    lambda n: {"do": "guide", "name": f"r{n}", "kind": "symmetry", "points": [[0, 0], [n, 9]]},
     lambda n: {"do": "frame", "rect": [0, 0, n + 1, 7]},
 )
 COMMANDS = st.builds(lambda kind, n: c.parse(kind(n)), st.sampled_from(KINDS), st.integers(0, 50))
