@@ -24,8 +24,8 @@ def size(text):
     return int(across.replace(",", "")), int(down.partition(", feather")[0].replace(",", ""))
 
 
-def near(across, down):
-    return lambda sides: abs(sides[0] - across) <= 2 and abs(sides[1] - down) <= 2
+def near(across, down, by=2):
+    return lambda sides: abs(sides[0] - across) <= by and abs(sides[1] - down) <= by
 
 
 def test_what_is_gone_round_is_selected_grown_kept_and_had_back(program):
@@ -33,7 +33,7 @@ def test_what_is_gone_round_is_selected_grown_kept_and_had_back(program):
     app.settled(60.0)
     app.keys("1", "o")
     app.stroke((400, 250), (600, 250), (600, 450), (400, 450), (400, 260))
-    chip(app, near(200, 200))
+    chip(app, near(200, 200, by=8))  # a loaded machine passes on few points of the path, which is rounder then
     app.keys("shift+o")
     for corner in ((400, 250), (700, 250), (700, 350), (400, 350)):
         app.click(corner)
