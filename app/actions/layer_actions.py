@@ -31,7 +31,10 @@ def _add(kind: str, stem: str) -> Callable[[Desk], None]:
 def _duplicate(desk: Desk) -> None:
     name = active(desk)
     selected = "copy" if paint_chosen(desk) and desk.selecting.selected else None
-    desk.post(Do(c.DuplicateLayer(name, next_layer_name(desk, f"{name} copy"), selected=selected)))
+    copy = next_layer_name(desk, f"{name} copy")
+    desk.post(Do(c.DuplicateLayer(name, copy, selected=selected)))
+    if not paint_chosen(desk):
+        desk.post(Do(c.SelectLayer(copy)))  # as the copy of a layer is chosen by itself
 
 
 def _cut_out(desk: Desk) -> None:
@@ -49,7 +52,9 @@ def _show_again(desk: Desk) -> None:
     placing = c.Placing(of=name, at=(aside, aside), level=desk.view.shown_level)
     taken = {row.name for row in desk.known.scene.layers} if desk.known.scene else set()
     wanted = f"{name} again"
-    desk.post(Do(c.AddPlacement(wanted if wanted not in taken else next_layer_name(desk, wanted), placing)))
+    again = wanted if wanted not in taken else next_layer_name(desk, wanted)
+    desk.post(Do(c.AddPlacement(again, placing)))
+    desk.post(Do(c.SelectLayer(again)))  # what is moved next
 
 
 def _nudges(x: int, y: int) -> Callable[[Desk], None]:

@@ -69,7 +69,7 @@ def _enclosed(like: Like, rect: Rect, picture: np.ndarray, what: str) -> flood.R
             colour[:] = 0.0
         found = enclosed(picture, inside, colour, flood.Likeness(like.tolerance, like.gap))
     if not found.covered.any():
-        raise Refusal(f"{what}: found no region that lies wholly within the line, expected one or more")
+        raise Refusal(f"{what}: found nothing closed that lies within the line, expected a region or more")
     return found
 
 
