@@ -43,12 +43,12 @@ MAKERS = {
     "sparse": Maker(
         "SAMPLE",
         "Endless texture: copies of a sample, under a radial window, scattered at random places",
-        ("density", "mean", "spread", "quantise"),
+        ("density", "mean", "spread", "quantise", "turn"),
     ),
     "impulse": Maker(
         "PHOTO",
         "Endless texture like a photograph: windows of it, averaged as spectra, are scattered at random places",
-        ("window", "average", "phase", "density", "mean", "spread", "quantise"),
+        ("window", "average", "phase", "density", "mean", "spread", "quantise", "turn"),
     ),
 }
 # Makers that match histograms: they make a texture of one size, whole.
@@ -111,6 +111,7 @@ def _parser(name: str) -> Parser:
         "mean": {"type": float, "metavar": "M", "help": "brightness around which it varies, -1 to 1 (default 0)"},
         "spread": {"type": float, "metavar": "S", "help": "contrast, 0 to 4 (default 1; a coloured photo's own)"},
         "quantise": {"type": int, "metavar": "N", "help": "how many different weights copies have (default: any)"},
+        "turn": {"type": float, "metavar": "T", "help": "how far copies are turned at random, 0 to 1 (default 0)"},
         "window": {"type": int, "metavar": "N", "help": "pixels along a window (default: chosen from the picture)"},
         "average": {"type": int, "metavar": "N", "help": "how many windows are averaged (default 4)"},
     }

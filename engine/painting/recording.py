@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
@@ -139,14 +139,19 @@ def version_of(command: Command) -> int:
     if isinstance(command, LayerCommand):
         return layer_version(command)
     newer = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto) or _lasts(command.brush))
-    newer |= isinstance(command, DefineTexture) and command.arguments.get("renew") is False
+    newer |= isinstance(command, DefineTexture) and _newer(command.arguments)
     return 2 if region or newer or isinstance(command, _OF_VERSION_2) else 1
 
 
 def _lasts(brush: Brush) -> bool:
-    """Tells whether any texture of a brush is one whose octaves are not renewed."""
+    """Tells whether any texture of a brush is one of version 2."""
     parts = (*brush.ink, brush.density, brush.grain, brush.tip)
-    return any(part is not None and part.parameters.get("renew") is False for part in parts)
+    return any(part is not None and _newer(part.parameters) for part in parts)
+
+
+def _newer(parameters: Mapping[str, object]) -> bool:
+    """Tells whether parameters of a texture are of version 2."""
+    return parameters.get("renew") is False or bool(parameters.get("turn"))
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

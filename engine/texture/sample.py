@@ -6,6 +6,8 @@ where the three are equal.  Its *native* level is the first on which it is no sm
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -119,6 +121,47 @@ def finest(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> tuple
     left = _held(top, arithmetic)
     top *= np.float32(functions(arithmetic).power(held / left, 0.5) if left > 0.0 else 0.0)
     return Impulse.of(top), form
+
+
+TURNS = 16  # of a sample whose copies are turned
+
+
+def _turned(planes: np.ndarray, turn: float, arithmetic: int) -> Iterator[np.ndarray]:
+    """Yields `planes` (c, h, w) turned by angles spread evenly over so much of a whole turn, around their middle, in
+    squares as large as their longer side; as strong as they are."""
+    height, width = planes.shape[1:]
+    side, own, held = max(height, width), functions(arithmetic), _held(planes, arithmetic)
+    around = np.pad(planes, ((0, 0), (1, 1), (1, 1))).astype(np.float64)
+    off = np.arange(side) + 0.5 - side / 2.0
+    for n in range(TURNS):
+        angle = 2.0 * math.pi * turn * ((n + 0.5) / TURNS - 0.5)
+        cosine, sine = own.cos(angle), own.sin(angle)
+        x = np.clip(off[None] * cosine + off[:, None] * sine + (width / 2.0 + 0.5), 0.0, width + 0.999)
+        y = np.clip(off[:, None] * cosine - off[None] * sine + (height / 2.0 + 0.5), 0.0, height + 0.999)
+        i, j = x.astype(np.int64), y.astype(np.int64)
+        u, v = x - i, y - j
+        top = around[:, j, i] * (1.0 - u) + around[:, j, i + 1] * u
+        low = around[:, j + 1, i] * (1.0 - u) + around[:, j + 1, i + 1] * u
+        found = (top * (1.0 - v) + low * v).astype(np.float32)
+        left = _held(found, arithmetic)
+        yield found * np.float32(math.sqrt(held / left) if left > 0.0 else 0.0)
+
+
+@lru_cache(maxsize=4)
+def turned(
+    source: ImageSource, period: int, turn: float, arithmetic: int = LIBRARY, octave: bool = False
+) -> tuple[Impulse, ...]:
+    """Returns the impulse response of a sample, or its finest octaves, turned by several angles."""
+    plain = finest(source, period, arithmetic)[0] if octave else sample_response(source, period, arithmetic).own
+    return tuple(map(Impulse.of, _turned(plain.phases[0, 0], turn, arithmetic)))
+
+
+@lru_cache(maxsize=8)
+def turned_seen(
+    source: ImageSource, period: int, turn: float, coarser: int, arithmetic: int = LIBRARY
+) -> tuple[Impulse, ...]:
+    """Returns the same some levels above the native one."""
+    return tuple(one.seen(coarser) for one in turned(source, period, turn, arithmetic))
 
 
 def _windowed(planes: np.ndarray, arithmetic: int) -> np.ndarray:

@@ -190,6 +190,7 @@ class Tiled(_Spectral):
 class Sparse(_Spectral):
     """The endless field by sparse convolution with the windowed sample: S = mean + spread 0.36 F, F of variance 1.
 
+    `turn`: of how much of a whole turn each copy is turned at random (Lewis' faulting takes all of it);
     `density`: points per area of the sample; `mean`, `spread`: of S (a coloured sample's own mean is added);
     `quantise`: 0, or how many values the points' weights have; `seed`: another one, another field.
     """
@@ -202,6 +203,7 @@ class Sparse(_Spectral):
     spread: float
     quantise: int
     seed: int
+    turn: float
     source: ImageSource
     arithmetic: int = LIBRARY
     renew: bool = True
@@ -213,7 +215,8 @@ class Sparse(_Spectral):
         """Tells this instance from all others, as `Instance.key`."""
         numbers = (self.roughness, self.density, self.mean, self.spread, self.quantise, self.seed)
         told = told_kind(self.kind, self.arithmetic, self.renew)
-        return (told, self.base, self.period, *numbers, self.source.name, self.source.sha)
+        turn = (self.turn,) if self.turn else ()
+        return (told, self.base, self.period, *numbers, *turn, self.source.name, self.source.sha)
 
     @property
     def native(self) -> int:
@@ -247,22 +250,38 @@ class Sparse(_Spectral):
         return sparse.Noise(_key(self.seed, self.base, self.native + octave), self.density, self.quantise)
 
     def _own(self, level: int, rect: Rect) -> np.ndarray:
-        return self._field(self.impulse(level), 0, rect)
+        return self._field(self.layers(level), rect)
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
-        return self._field(sample.finest(self.source, self.period, self.arithmetic)[0], depth, rect)
+        return self._field(self.layers(self.native + depth), rect)
 
     def loudness(self, level: int) -> tuple[float, float]:
         """Returns how far the field is from its mean at most, and by rms, at a level down to the native one; beyond, an
         octave before its weight."""
-        own = level <= self.native
-        impulse = self.impulse(level) if own else sample.finest(self.source, self.period, self.arithmetic)[0]
-        most, spread = sparse.loudness(impulse, self.noise)
+        found = [sparse.loudness(impulse, noise) for impulse, noise in self.layers(level)]
         factor = self.spread * SPREAD / math.sqrt(self.density)
-        return most * factor, spread * factor
+        return sum(most for most, _ in found) * factor, math.sqrt(sum(own * own for _, own in found)) * factor
 
-    def _field(self, impulse: sparse.Impulse, octave: int, rect: Rect) -> np.ndarray:
-        out = sparse.field(impulse, self._noise(octave), rect)
+    def layers(self, level: int) -> list[tuple[sparse.Impulse, sparse.Noise]]:
+        """Returns what lies over one another at a level: responses, and the points at which copies of each begin."""
+        octave = max(0, level - self.native)
+        noise, about = self._noise(octave), (self.source, self.period)
+        if not self.turn:
+            plain = sample.finest(*about, self.arithmetic)[0] if octave else self.impulse(level)
+            return [(plain, noise)]
+        if level < self.native:
+            turned = sample.turned_seen(*about, self.turn, self.native - level, self.arithmetic)
+        else:
+            turned = sample.turned(*about, self.turn, self.arithmetic, octave > 0)
+        height, width = self.impulse(self.native).size
+        density = self.density * (max(height, width) ** 2 / (height * width)) / len(turned)
+        keys = (fold_key(noise.key, n) for n in range(len(turned)))
+        return [(one, sparse.Noise(key, density, self.quantise)) for one, key in zip(turned, keys, strict=True)]
+
+    def _field(self, laid: list[tuple[sparse.Impulse, sparse.Noise]], rect: Rect) -> np.ndarray:
+        out = sparse.field(*laid[0], rect)
+        for impulse, noise in laid[1:]:
+            out += sparse.field(impulse, noise, rect)
         # A response of energy 1 per area makes a field of variance `density`, whatever the sample.
         out *= np.float32(self.spread * SPREAD / math.sqrt(self.density))
         return out

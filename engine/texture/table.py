@@ -98,6 +98,7 @@ _SPARSE = (
     Parameter("spread", 1.0, 0.0, 4.0, "", "Contrast"),
     Parameter("quantise", 0, 0, 256, "", "How many different strengths the copies have; 0 is any", whole=True),
     _ROCK[-1],
+    Parameter("turn", 0.0, 0.0, 1.0, "turns", "How far copies are turned at random: 1 is any way round"),
 )
 
 _ROWS = (
@@ -205,6 +206,8 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
         raise TextureError("texture", described(key[0]), "one of " + ", ".join(KINDS))
     _check_level(key[1])
     count = 2 + len(row.parameters) + (2 if row.pictured else 0)
+    if len(key) == count - 1 and row.parameters and row.parameters[-1].name == "turn":  # none is told where none is
+        key = (*key[:-2], 0.0, *key[-2:])
     if len(key) != count:
         raise TextureError("key", f"{len(key)} parts", f"{count} parts for {row.name!r}")
     values = [p.checked(value) for p, value in zip(row.parameters, key[2:], strict=False)]

@@ -50,6 +50,7 @@ _ENDLESS = (
     ("spread", "Contrast", "How strongly it varies", (0, 4), 1, "%.2f"),
     ("mean", "Brightness", "What it varies around", (-1, 1), 0, "%.2f"),
     ("quantise", "Steps", "How many strengths copies have, lighter and darker ones; 0 is any", (0, 16), 0, "%.0f"),
+    ("turn", "Turn", "How far copies are turned at random: 1 is any way round", (0, 1), 0, "%.2f"),
 )
 _WINDOW = ("Window", "Width of the round window under which the sample is scattered, in pixels: smaller is finer")
 _CURVED, _WHOLE = ("period", "density"), ("period", "quantise")

@@ -89,6 +89,7 @@ MADE: dict[str, dict[str, Any]] = {
         "spectrum", size=[64, 64], strokes=[{"points": [[20, 40], [44, 40]], "brush": {"radius": 5}}]
     ),
     "sparse": texture("sparse", path="colour.png", density=12, quantise=5),
+    "sparse-turned": texture("sparse", path="grey.png", density=3, turn=0.7),
     "impulse": texture("impulse", path="grey.png", window=16, average=5),
     "impulse-usual": texture("impulse", path="colour.png"),
     "impulse-random": texture("impulse", path="colour.png", phase="random", field="tile"),
