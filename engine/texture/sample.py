@@ -148,7 +148,7 @@ def _turned(planes: np.ndarray, turn: float, arithmetic: int) -> Iterator[np.nda
 
 
 @lru_cache(maxsize=4)
-def turned(
+def turned_responses(
     source: ImageSource, period: int, turn: float, arithmetic: int = LIBRARY, octave: bool = False
 ) -> tuple[Impulse, ...]:
     """Returns the impulse response of a sample, or its finest octaves, turned by several angles."""
@@ -161,7 +161,7 @@ def turned_seen(
     source: ImageSource, period: int, turn: float, coarser: int, arithmetic: int = LIBRARY
 ) -> tuple[Impulse, ...]:
     """Returns the same some levels above the native one."""
-    return tuple(one.seen(coarser) for one in turned(source, period, turn, arithmetic))
+    return tuple(one.seen(coarser) for one in turned_responses(source, period, turn, arithmetic))
 
 
 def _windowed(planes: np.ndarray, arithmetic: int) -> np.ndarray:

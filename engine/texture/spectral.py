@@ -272,7 +272,7 @@ class Sparse(_Spectral):
         if level < self.native:
             turned = sample.turned_seen(*about, self.turn, self.native - level, self.arithmetic)
         else:
-            turned = sample.turned(*about, self.turn, self.arithmetic, octave > 0)
+            turned = sample.turned_responses(*about, self.turn, self.arithmetic, octave > 0)
         height, width = self.impulse(self.native).size
         density = self.density * (max(height, width) ** 2 / (height * width)) / len(turned)
         keys = (fold_key(noise.key, n) for n in range(len(turned)))
