@@ -36,6 +36,7 @@ class Program:
         server: Server | None = None,
     ) -> None:
         self.display, self.folder = display, folder
+        self.do("mouseup", 1)  # what held it before has ended
         environment = {
             **os.environ,
             "DISPLAY": display,
@@ -155,7 +156,7 @@ class Program:
         self.do("mouseup", 1)
 
     def drag(self, start: tuple[int, int], end: tuple[int, int], steps: int = 6) -> None:
-        """The left button held from one point of the screen to another, as slowly as by hand."""
+        """The left button held from one point of the screen to another, as slowly as by hand; it stays down."""
         self.do("mousemove", *start)
         time.sleep(0.1)
         self.do("mousedown", 1)
@@ -199,7 +200,7 @@ class Program:
         """The canvas when it shows something else than this and has come to rest: kernels may still be compiled."""
         end = time.monotonic() + seconds
         while np.array_equal(now := self.canvas(calm=8), picture):
-            assert time.monotonic() < end, "the canvas stays as it was"
+            assert time.monotonic() < end, f"the canvas stays as it was: {self.log.read_text()[-2000:]}"
         return now
 
     def until(self, good: Callable[[np.ndarray], bool], pointer: Point = REST, seconds: float = 60.0) -> np.ndarray:

@@ -68,6 +68,7 @@ def test_the_window_shows_what_the_export_does(program, tmp_path):
     left_end, up, right_end, down = app.box("sun")
     middle, radius = ((left_end + right_end) // 2, (up + down) // 2), 0.46 * (right_end - left_end)
     app.drag(middle, (round(middle[0] + radius * np.cos(np.radians(20))), middle[1]))
+    app.do("mouseup", 1)
     app.until(lambda screen: abs(screen[frame] - lit[frame]).max() > 20)
     app.keys("shift+l")
     again = app.until(lambda screen: np.array_equal(screen[frame], plain[frame]))

@@ -13,6 +13,7 @@ def test_a_solid_is_turned_and_its_slice_is_ink(program):
     place = app.part("object")
     seen = app.until(lambda screen: screen[place].std() > 25)
     app.drag(app.at("object", 0.45, 0.5), app.at("object", 0.55, 0.6))
+    app.do("mouseup", 1)
     turned = app.until(lambda screen: changed(screen[place], seen[place]) > 3000)
     app.click("Wood")
     app.until(lambda screen: changed(screen[place], turned[place]) > 3000)
