@@ -205,7 +205,7 @@ def _seen(
 
 
 @kernel
-def picture_rows(
+def picture_block(
     heights: np.ndarray,
     tops: np.ndarray,
     mips: np.ndarray,
@@ -213,22 +213,22 @@ def picture_rows(
     colours: np.ndarray,
     eye: np.ndarray,
     numbers: np.ndarray,
-    top: int,
-    height: int,
+    place: np.ndarray,
     out: np.ndarray,
 ) -> None:
-    """Rows `top` and following of a picture `height` rows high: adds linear light to `out` (rows, width, 3) float32.
+    """A block of a picture, `place` int64 (4,): left, top, right, bottom; adds linear light to it in `out` (h, w, 3)
+    float32, the whole picture.
 
-    `eye` (4, 3): where it is; per pixel of half the width: right, up; forward.  `numbers`: as the names above say;
-    samples FROM_SAMPLE to TO_SAMPLE - 1 are added.  `colours` uint8 (windows, n + 1, n + 1, 3): roots of linear ones.
+    `eye` (4, 3): where it is; per pixel right and up; to the middle of the corner pixel 0, 0.  `numbers`: as the names
+    above say; samples FROM_SAMPLE to TO_SAMPLE - 1 are added.  `colours` uint8 (windows, n + 1, n + 1, 3): roots of
+    linear ones.
     """
-    rows, width = out.shape[:2]
     d, light, other = np.empty(3), np.empty(3), np.empty(3)
-    for row in range(rows):
-        for px in range(width):
+    for py in range(place[1], place[3]):
+        for px in range(place[0], place[2]):
             for k in range(int(numbers[FROM_SAMPLE]), int(numbers[TO_SAMPLE])):
-                x = px + (0.5 + 0.7548776662466927 * k) % 1.0 - 0.5 * width
-                y = 0.5 * height - (top + row) - (0.5 + 0.5698402909980532 * k) % 1.0
+                x = px + (0.5 + 0.7548776662466927 * k) % 1.0 - 0.5
+                y = 0.5 - py - (0.5 + 0.5698402909980532 * k) % 1.0
                 size = 0.0
                 for c in range(3):
                     d[c] = eye[3, c] + x * eye[1, c] + y * eye[2, c]
@@ -236,7 +236,6 @@ def picture_rows(
                 size = math.sqrt(size)
                 for c in range(3):
                     d[c] /= size
-                dice = _random(px, top + row, k)
-                _seen(heights, tops, mips, places, colours, eye[0], d, numbers, dice, light, other)
+                _seen(heights, tops, mips, places, colours, eye[0], d, numbers, _random(px, py, k), light, other)
                 for c in range(3):
-                    out[row, px, c] += light[c]
+                    out[py, px, c] += light[c]

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +17,8 @@ from engine.terrain.camera import Camera, Windows, windows_of
 from engine.terrain.drape import Cover
 from engine.terrain.plane import Land
 
-_ROWS = 8  # of a strip
+_BLOCK = 256, 8  # pixels that are worked out at a time
+_QUARTER = 4
 _HAZE = 13.0  # frames' widths at which it hides all but a third
 _EXPOSURE = 0.86
 
@@ -33,6 +35,15 @@ class Shot:
     wet: bool = False
 
 
+class Stage(NamedTuple):
+    """A picture on its way: uint8 (h, w, 3), sRGB, of pixels that are `by` of the shot's each way; `samples` of each are
+    in it.  Those at the right and at the bottom may reach beyond the shot."""
+
+    picture: np.ndarray
+    by: int
+    samples: int
+
+
 def picture_of_land(
     land: Land,
     cover: Cover,
@@ -42,43 +53,76 @@ def picture_of_land(
 ) -> np.ndarray:
     """Returns a picture of land: uint8 (h, w, 3), sRGB."""
     windows = windows_of(land, shot.camera, cover, shot.camera.finest(shot.size), shot.wet)
-    return developed(exposed(windows, shot, land.painting.frame.width, progress, cancelled), shot.samples)
+    light = _exposed(windows, shot, land.painting.frame.width, (0, shot.samples), None, progress, cancelled)
+    return developed(light, shot.samples)
 
 
-def exposed(
+def refinement(
+    windows: Windows, shot: Shot, wide: float, cancelled: Callable[[], bool] | None = None
+) -> Iterator[Stage]:
+    """Yields a picture of land that becomes sharper: a quarter of the shot's size each way, its size with one sample of
+    a pixel, with four, with all of them.  Each stage is a function of what was asked for alone, and the last one that
+    of `picture_of_land`, bit for bit.
+
+    `windows`: by `windows_of(land, shot.camera, cover, shot.camera.finest(shot.size), shot.wet)`.  `wide`: the width of
+    the painting's frame.  A stage is worked out, on all cores, when it is asked for; meanwhile `cancelled` is asked
+    every some milliseconds, by several threads: Cancelled if it says so."""
+    small = _exposed(windows, shot, wide, (0, 1), None, None, cancelled, _QUARTER)
+    yield Stage(developed(small, 1), _QUARTER, 1)
+    light, done = None, 0
+    for samples in (1, 4, shot.samples):
+        if done < samples <= shot.samples:
+            light = _exposed(windows, shot, wide, (done, samples), light, None, cancelled)
+            done = samples
+            yield Stage(developed(light, done), 1, done)
+
+
+def exposed(windows: Windows, shot: Shot, wide: float) -> np.ndarray:
+    """Returns the sum of all samples of linear light (h, w, 3), float32; `wide`: pixels of level 0 by which haze goes."""
+    return _exposed(windows, shot, wide, (0, shot.samples), None, None, None)
+
+
+def _exposed(
     windows: Windows,
     shot: Shot,
     wide: float,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    samples: tuple[int, int],
+    before: np.ndarray | None,
+    progress: Callable[[float], None] | None,
+    cancelled: Callable[[], bool] | None,
+    by: int = 1,
 ) -> np.ndarray:
-    """Returns the sum of all samples of linear light (h, w, 3), float32; `wide`: pixels of level 0 by which haze goes.
-    Cancelled, if the one who asked says so."""
-    width, height = shot.size
-    out = np.zeros((height, width, 3), np.float32)
-    numbers, eye = _numbers(windows, shot, wide), _eye(windows, shot)
+    """Returns light with some samples more than what there was `before`, in pixels of `by`."""
+    width, height = (-(-side // by) for side in shot.size)
+    out = np.zeros((height, width, 3), np.float32) if before is None else before
+    numbers, eye = _numbers(windows, shot, wide, samples), _eye(windows, shot, by)
     tables = windows.heights, windows.tops, windows.mips, windows.places, windows.colours
 
-    def work(top: int) -> None:
+    def work(corner: tuple[int, int]) -> None:
         if cancelled is not None and cancelled():
             raise Cancelled
-        daylight.picture_rows(*tables, eye, numbers, top, height, out[top : top + _ROWS])
+        left, top = corner
+        place = np.array([left, top, min(left + _BLOCK[0], width), min(top + _BLOCK[1], height)])
+        daylight.picture_block(*tables, eye, numbers, place, out)
 
     with ThreadPoolExecutor(os.cpu_count() or 1, "inkfall land") as pool:
-        tops = range(0, height, _ROWS)
-        for done, _ in enumerate(pool.map(work, tops)):
+        corners = [(x, y) for y in range(0, height, _BLOCK[1]) for x in range(0, width, _BLOCK[0])]
+        for done, _ in enumerate(pool.map(work, corners)):
             if progress is not None:
-                progress((done + 1) / len(tops))
+                progress((done + 1) / len(corners))
     return out
 
 
-def _eye(windows: Windows, shot: Shot) -> np.ndarray:
+def _eye(windows: Windows, shot: Shot, by: int) -> np.ndarray:
+    """Returns where the eye is, a pixel's width and height, and the way to the middle of the first pixel."""
     right, up, forward = shot.camera.axes()
     pixel = 2.0 * math.tan(math.radians(shot.camera.fov) / 2) / shot.size[0]
-    return np.stack([np.array([0.0, 0.0, windows.eye]), right * pixel, up * pixel, forward])
+    corner = forward + pixel * (0.5 * shot.size[1] * up - 0.5 * shot.size[0] * right)
+    right, up = by * pixel * right, by * pixel * up
+    return np.stack([np.array([0.0, 0.0, windows.eye]), right, up, corner + 0.5 * right - 0.5 * up])
 
 
-def _numbers(windows: Windows, shot: Shot, wide: float) -> np.ndarray:
+def _numbers(windows: Windows, shot: Shot, wide: float, samples: tuple[int, int]) -> np.ndarray:
     azimuth, altitude = (math.radians(v) for v in shot.sun)
     flat = math.cos(altitude)
     sun = flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(altitude)
@@ -88,7 +132,7 @@ def _numbers(windows: Windows, shot: Shot, wide: float) -> np.ndarray:
     highest = float((windows.tops[:, -1] * windows.places[:, 2]).max()) + 1e-3
     far = 4.0 * sides * len(windows.heights[0])
     sea = max(windows.sea, -1e30)
-    return np.array([*sun, cone, haze, sea, highest, far, 0.0, shot.samples])
+    return np.array([*sun, cone, haze, sea, highest, far, *samples])
 
 
 def developed(light: np.ndarray, samples: int) -> np.ndarray:

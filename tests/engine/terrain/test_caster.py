@@ -6,12 +6,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
 from engine.painting.value import Painting
 from engine.terrain.camera import Camera, windows_of
 from engine.terrain.caster import cast, maxima, mipmap_of
 from engine.terrain.drape import Cover
-from engine.terrain.land_picture import Shot, developed, exposed
+from engine.terrain.land_picture import Shot, developed, exposed, refinement
 from engine.terrain.plane import Land
 
 CELLS = 64
@@ -161,3 +162,22 @@ def test_land_becomes_the_sky_where_it_ends_even_without_haze():
     light = exposed(seen, Shot(camera, (8, 64), 1, sun=(300.0, 80.0)), 1e9)
     steps = np.abs(np.diff(light, axis=0)).max(axis=(1, 2))
     assert steps[30:].max() < 0.1
+
+
+def test_a_picture_becomes_sharper_until_it_is_the_one_that_is_asked_for():
+    camera = Camera(0, Fraction(32), Fraction(60), 9.0, 0.0, -12.0)
+    seen = windows_of(made(Hills), camera, COVER, 0, cells=CELLS)
+    shot = Shot(camera, (42, 30), 6, sun=(300.0, 60.0))
+    stages = list(refinement(seen, shot, 64))
+    assert [(stage.by, stage.samples, stage.picture.shape[:2]) for stage in stages] == [
+        (4, 1, (8, 11)),
+        (1, 1, (30, 42)),
+        (1, 4, (30, 42)),
+        (1, 6, (30, 42)),
+    ]
+    last = developed(exposed(seen, shot, 64), 6)
+    assert np.array_equal(stages[-1].picture, last)
+    means = [stage.picture[: 28 // stage.by, : 40 // stage.by].mean(axis=(0, 1)) for stage in stages]
+    assert np.abs(np.array(means) - means[-1]).max() < 8
+    with pytest.raises(Cancelled):
+        next(refinement(seen, shot, 64, lambda: True))
