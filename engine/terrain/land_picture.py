@@ -36,7 +36,7 @@ class Shot:
 
 
 class Stage(NamedTuple):
-    """A picture on its way: uint8 (h, w, 3), sRGB, of pixels that are `by` of the shot's each way; `samples` of each are
+    """A picture on its way: uint8 (h, w, 3), sRGB, of pixels `by` of the shot's each way; `samples` of each are
     in it.  Those at the right and at the bottom may reach beyond the shot."""
 
     picture: np.ndarray
@@ -78,7 +78,7 @@ def refinement(
 
 
 def exposed(windows: Windows, shot: Shot, wide: float) -> np.ndarray:
-    """Returns the sum of all samples of linear light (h, w, 3), float32; `wide`: pixels of level 0 by which haze goes."""
+    """Returns the sum of all samples of linear light (h, w, 3), float32; `wide`: pixels of the frame, by which haze goes."""
     return _exposed(windows, shot, wide, (0, shot.samples), None, None, None)
 
 
