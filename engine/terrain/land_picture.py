@@ -78,7 +78,7 @@ def refinement(
 
 
 def exposed(windows: Windows, shot: Shot, wide: float) -> np.ndarray:
-    """Returns the sum of all samples of linear light (h, w, 3), float32; `wide`: pixels of the frame, by which haze goes."""
+    """Returns the sum of all samples, linear light (h, w, 3), float32; `wide`: the width of the frame."""
     return _exposed(windows, shot, wide, (0, shot.samples), None, None, None)
 
 
