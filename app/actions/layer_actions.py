@@ -9,7 +9,7 @@ from app.actions.action import active, chosen, next_layer_name, paint_chosen, re
 from app.desk.desk import Desk
 from app.desk.framing.frame_state import FRAME_TOOL
 from app.desk.known import moved_by
-from app.desk.moving.floating import lift, set_part_down, takes_part
+from app.desk.moving.floating import laying, lift, set_part_down, takes_part
 from app.desk.moving.move_state import TOOL
 from app.desk.moving.poses import shifted
 from engine.canvas.placing.pose import UNMOVED
@@ -81,6 +81,10 @@ def _set_down(desk: Desk) -> None:
     if desk.hand.tool == FRAME_TOOL:
         desk.hand.use("brush")  # each drag was a step of its own
     set_part_down(desk)
+
+
+def _samples(desk: Desk) -> bool:
+    return ready(desk) and laying(desk) is not None
 
 
 def _is_reference(desk: Desk) -> bool:
@@ -166,6 +170,11 @@ LAYER_ACTIONS: dict[str, A] = {
         "Set down", "Layer/Move", ("Enter",),
         "Lay what you moved of the layer where it is now (Escape takes it back), or end with the frame",
         _set_down, _floats,
+    ),
+    "set_above": A(
+        "Set down above", "Layer/Move", (),
+        "Lay what you turned or scaled of the layer above it: no pixel of it is made anew, and its ink stays ink",
+        lambda desk: set_part_down(desk, above=True), _samples,
     ),
     "show_layer": A("Show layer", "Layer", (), "Show the layer, and the groups around it", _show, _hidden),
 }  # fmt: skip

@@ -169,6 +169,7 @@ class SetLayer:
     placing: Placing | None = None
     extra: Extra = NO_EXTRA
     selected: str | None = None  # what is selected of a layer goes to the place, as "cut" or as a "copy"
+    baked: int | None = None  # the level of which pixels it becomes in its layer where it is sampled; None: none
 
     @property
     def changes(self) -> Members:
@@ -261,6 +262,10 @@ def _settings(members: Fields) -> Members:
         if "placing" not in settings:
             raise members.fault("selected", "it only with a place that it goes to")
         settings["selected"] = selected
+    if "baked" in members:
+        if not selected:
+            raise members.fault("baked", 'it only with "selected"')
+        settings["baked"] = members.integer("baked", lo=-FINEST, hi=FINEST)
     if not settings:
         known = ", ".join([*(row[0] for row in _SETTABLE), *PLACED])
         raise FieldError(members.place, "nothing to set", f"any of {known}")

@@ -211,7 +211,7 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
         else:
             if layers.is_locked(painting.root, command.name):
                 raise LayerError(f"layer {command.name!r}: found it locked, expected one that is not")
-            painting = _all_or_part_moved(painting, node, command.placing, command.selected)
+            painting = _all_or_part_moved(painting, node, command)
     if not changes:
         return _shown(painting)
     root = layers.set_fields(painting.root, command.name, **changes)
@@ -228,11 +228,11 @@ def _only_heights(root: Group, name: str) -> Group:
     return root
 
 
-def _all_or_part_moved(painting: Painting, node: Node, placing: c.Placing, selected: str | None) -> Painting:
-    if selected is None and not isinstance(node, Placement):
-        return elsewhere(painting, node, placing)
-    assert selected is not None
-    return part_moved(painting, node, placing, selected)
+def _all_or_part_moved(painting: Painting, node: Node, command: c.SetLayer) -> Painting:
+    if command.selected is None and not isinstance(node, Placement):
+        assert command.placing is not None
+        return elsewhere(painting, node, command.placing)
+    return part_moved(painting, node, command)
 
 
 def _texture(painting: Painting, command: c.DefineTexture, around: Around) -> Painting:

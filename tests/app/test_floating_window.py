@@ -78,13 +78,36 @@ def test_escape_takes_it_back_and_another_tool_sets_it_down(app):
     assert (np.abs(both - painted).max(axis=2)[old] > 3 * CHEQUER).mean() < 0.5
 
 
-def test_what_is_turned_by_parts_lies_above_and_can_be_baked(app, tmp_path):
-    painted = app.canvas()
-    select(app)
+def turn(app):
+    """Turns what is selected by parts."""
     x, y = app.at("turn handle")
     app.drag((x, y), (x + 60, y + 20))
     app.do("mouseup", 1)
-    app.keys("Return")
+    app.box("Pixels of level 0")
+
+
+def test_what_is_turned_by_parts_is_laid_into_its_layer_which_is_painted_on(app, tmp_path):
+    painted = app.canvas()
+    select(app)
+    turn(app)
+    app.keys("b")
+    app.keys("ctrl+shift+a")
+    app.park()
+    laid = app.canvas_unlike(painted)
+    app.stroke((600, 500), (700, 520))
+    app.settled()
+    assert not np.array_equal(app.canvas(), laid)
+    assert names(app, tmp_path / "turned.ora") == ["Layer 1"]
+    app.keys("ctrl+z", "ctrl+z", "ctrl+z")
+    app.click("deselect")
+    assert app.comes_to(painted)
+
+
+def test_what_is_turned_by_parts_is_set_down_above_and_can_be_baked(app, tmp_path):
+    painted = app.canvas()
+    select(app)
+    turn(app)
+    app.click("set_above")
     app.box("Layer 1 part")
     app.click("Make independent", "status")
     app.keys("ctrl+shift+a")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.desk.desk import Desk
+from app.desk.moving.laid_level import LaidLevel, laid_level
 from app.desk.moving.move_state import TOOL, Floating
 from engine.canvas.placing.pose import UNMOVED, Pose, SourcePart
 from engine.numeric.similarity import Similarity
@@ -40,17 +41,26 @@ def let_go(desk: Desk) -> None:
         desk.post(Try(floating.name, None))
 
 
-def set_part_down(desk: Desk) -> None:
-    """Lays it into its layer, where that is exact, or shown above it: one command, one step."""
+def laying(desk: Desk) -> LaidLevel | None:
+    """Returns of which level it becomes pixels when it is set down; None where it is not sampled, or nothing floats."""
+    floating = desk.moving.floating
+    return None if floating is None else laid_level(desk.moving.extent, floating.pose, desk.view.shown_level)
+
+
+def set_part_down(desk: Desk, above: bool = False) -> None:
+    """Lays it into its layer, or sampled `above` it, where nothing of it is lost: one command, one step."""
     floating, extent = desk.moving.floating, desk.moving.extent
     if floating is None or (floating.pose == UNMOVED and floating.way == CUT):
         let_go(desk)
         return
+    laid = None if above else laying(desk)
     desk.moving.floating = None
-    pose = floating.pose
+    pose, level = floating.pose, None if laid is None else laid.level
     desk.selecting.carried = pose.similarity
-    desk.post(Do(SetLayer(floating.name, placing=Placing.at_pose(pose), selected=floating.way)))
-    if pose.similarity.quarter is None:
+    desk.post(Do(SetLayer(floating.name, placing=Placing.at_pose(pose), selected=floating.way, baked=level)))
+    if level is not None:
+        desk.moving.extent = None  # it is asked for anew
+    elif pose.similarity.quarter is None:
         part = None if extent is None else extent.part
         desk.moving.extent = None if part is None else Extent(f"{floating.name} part", part)
         desk.moving.laid_above = floating.name

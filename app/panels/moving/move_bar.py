@@ -10,8 +10,9 @@ from imgui_bundle import imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
-from app.desk.moving import held_box
+from app.desk.moving import floating, held_box
 from app.desk.moving.box import spot
+from app.desk.moving.laid_level import LaidLevel
 from app.desk.moving.poses import Spin, exact, respun, scale_text, shifted, spin_of, turn_text
 from app.desk.moving.setting_down import set_down
 from app.panels.controls import widgets as w
@@ -20,7 +21,8 @@ from app.panels.options.options_bar import Options
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.studio.results import LayerRow
 
-BAR_WIDTH = 33.0  # of the bar, ems
+_BAR_WIDTH = 33.0  # of the bar, ems
+_OF_PART = 41.0  # the same where what is selected of a layer is moved: what it becomes is told, too
 _MOST = 10**9  # percent
 Typed = Callable[[Pose, SourcePart, int, Fraction], Pose]  # what a number makes of a pose, seen at a level
 
@@ -65,7 +67,10 @@ class MoveBar:
 
     def options(self, desk: Desk) -> Options | None:
         """Returns what is to be seen; None for nothing."""
-        return Options(BAR_WIDTH, self.draw) if desk.panels and held_box.seen_box(desk) is not None else None
+        row = desk.known.active
+        if not desk.panels or row is None or held_box.seen_box(desk) is None:
+            return None
+        return Options(_OF_PART if floating.takes_part(desk, row) else _BAR_WIDTH, self.draw)
 
     def draw(self, desk: Desk) -> None:
         """Fills the present window, one line high."""
@@ -88,7 +93,15 @@ class MoveBar:
             if w.icon_button(name, icon, actions.tip(name), enabled=action.when(desk)):
                 actions.perform(desk, action)
             imgui.same_line()
-        _told(exact(pose, level))
+        laid = floating.laying(desk)
+        if laid is None:
+            _told(exact(pose, level))
+            return
+        above = actions.ACTIONS["set_above"]
+        if w.icon_button("set_above", icons.LAYERS, actions.tip("set_above"), enabled=above.when(desk)):
+            actions.perform(desk, above)
+        imgui.same_line()
+        _told_laid(laid)
 
 
 def _apply(desk: Desk, row: LayerRow, typed: tuple[str, Typed], where: tuple[Pose, SourcePart, int]) -> None:
@@ -114,4 +127,17 @@ def _told(very: bool) -> None:
         "It shows the very pixels that were painted"
         if very
         else "Turned, scaled or moved by parts: it is sampled from what was painted, of which nothing is lost"
+    )
+
+
+def _told_laid(laid: LaidLevel) -> None:
+    """Tells of which level it becomes pixels in its layer."""
+    imgui.align_text_to_frame_padding()
+    text = f"Pixels of level {laid.level}"
+    imgui.text_colored(theme.vec(theme.WARN if laid.loses else theme.QUIET), text)
+    w.named(text)
+    w.tooltip(
+        "Set down, it becomes paint of its layer: pixels of this level"
+        + (", and what is finer in it is lost" if laid.loses else "; its ink does, too")
+        + ". Set down above, nothing changes"
     )

@@ -16,6 +16,7 @@ from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer
+from engine.canvas.merging.laying import laid_at
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.bake import Pasted, baked, tiles_of
 from engine.canvas.placing.clip import Clip, clipped
@@ -135,11 +136,18 @@ def _at_one_level(root: Group, node: Placement, frame: Rect, grid: int, level: i
         return empty
     at = showing.finest if level is None else min(level, showing.finest)
     tiles = showing.tiles(at)
+    return commit(empty, Pasted(at, sorted(tiles, key=_by_row), showing.pixels)) if tiles else empty
 
-    def values(key: TileKey) -> Planes:
-        return Planes(snapped(showing.picture(key)))
 
-    return commit(empty, Pasted(at, sorted(tiles, key=_by_row), values)) if tiles else empty
+def shown_over(below: Pyramid, root: Group, node: Placement, frame: Rect, level: int) -> Pyramid:
+    """Returns paint with what a placement of a tree shows over it, as pixels of a level, however coarse its source is.
+    LayerError if that would be too many tiles."""
+    showing = _Showing(root, node, frame)
+    if not showing.ways:
+        return below
+    if level < showing.first:
+        raise LayerError(f"layer: found level {level}, expected one from {showing.first} on, where its paint begins")
+    return laid_at(below, level, showing.tiles(level), showing.pixels)
 
 
 class _Showing:
@@ -148,7 +156,7 @@ class _Showing:
     def __init__(self, root: Group, node: Placement, frame: Rect) -> None:
         self.ways = [(layer, seen) for layer, seen in ways_of(root, node) if layer.pyramid.levels]
         self.finest = max((_finest(layer) - seen.levels for layer, seen in self.ways), default=0)
-        self._first = min((min(layer.pyramid.levels) - seen.levels for layer, seen in self.ways), default=0)
+        self.first = min((min(layer.pyramid.levels) - seen.levels for layer, seen in self.ways), default=0)
         self._node, self._frame = node, frame
         self._shown, self._cache = layers.alone(node, root), TileCache(_CACHE)
         self._repeats = any(seen.repeats or layer.wrap is not None for layer, seen in self.ways)
@@ -157,6 +165,10 @@ class _Showing:
         """Returns what is seen in a tile."""
         cache = self._cache
         return composite(self._shown, key.level, key.rect, lambda layer, at, rect: layer_planes(layer, at, rect, cache))
+
+    def pixels(self, key: TileKey) -> Planes:
+        """Returns the same on the grid, as what is laid."""
+        return Planes(snapped(self.picture(key)))
 
     def tiles(self, level: int) -> list[TileKey]:
         """Returns the tiles of a level that hold paint.  LayerError if they are too many."""
@@ -173,10 +185,10 @@ class _Showing:
         """Returns the finest level of which few enough tiles hold paint."""
         if self._repeats:
             level = self.finest
-            while level > self._first and _count(self._frame.zoomed(level)) > _MOST_CHOSEN:
+            while level > self.first and _count(self._frame.zoomed(level)) > _MOST_CHOSEN:
                 level -= 1
             return level
-        fits = self._first
+        fits = self.first
         for k, tiles, _ in self._levels(self.finest):
             if len(tiles) > _MOST_CHOSEN:
                 break
@@ -193,7 +205,7 @@ class _Showing:
             alpha[0] += float(picture[3][picture[3] > _WEAK].sum())
             return bool(picture.any())
 
-        for k, tiles in filled_levels(stored_tiles(self.ways), filled, self._first, level):
+        for k, tiles in filled_levels(stored_tiles(self.ways), filled, self.first, level):
             yield k, tiles, alpha[0] / TILE**2
             alpha[0] = 0.0
 

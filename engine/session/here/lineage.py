@@ -12,7 +12,7 @@ from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.cleared import Outside, framing
 from engine.canvas.placing.placement import Placement
-from engine.canvas.placing.pose import UNMOVED, SourcePart
+from engine.canvas.placing.pose import UNMOVED, Pose, SourcePart
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
@@ -184,7 +184,10 @@ def _part_moved(change: Change, pasts: Pasts, node: Layer, command: c.SetLayer) 
         return pasts
     part = _left(chosen, False, past)
     rest = _left(chosen, True, past) if command.selected == CUT else past
-    by = command.placing.posed(UNMOVED).similarity
+    pose = command.placing.posed(UNMOVED)
+    by = pose.similarity
+    if by.quarter is None and command.baked is not None:
+        return pasts.set(node.id, _sampled_over(rest, part, pose))
     if by.quarter is None:
         held = {one.id for one in layers.walk(change.before.root)}
         new = next(one for one in layers.layers(change.after.root) if one.id not in held)
@@ -192,6 +195,14 @@ def _part_moved(change: Change, pasts: Pasts, node: Layer, command: c.SetLayer) 
     nodes = Layer(1, "rest"), Layer(2, "part")
     both: Pasts = Map({1: rest, 2: Moved(by, part)})
     return pasts.set(node.id, Joined(nodes, Group(0, "root", children=nodes), both))
+
+
+def _sampled_over(rest: Past, part: Past, pose: Pose) -> Past:
+    """Returns what a layer comes to with a part of it sampled elsewhere in it."""
+    below, shown = Layer(1, "rest"), Placement(3, "shown", of=2, pose=pose)
+    root = Group(0, "root", children=(below, Layer(2, "part", visible=False), shown))
+    both: Pasts = Map({1: rest, 2: part})
+    return Joined((below, shown), root, both)
 
 
 def _placed(pasts: Pasts, node: Node, placing: c.Placing) -> Pasts:

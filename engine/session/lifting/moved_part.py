@@ -1,4 +1,4 @@
-"""What is selected of a layer, moved: within the layer where that is exact, else shown above it."""
+"""What is selected of a layer, moved: laid into the layer again, or shown above it."""
 
 from __future__ import annotations
 
@@ -10,14 +10,13 @@ from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.laid import laid_over
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.bake import baked
-from engine.canvas.placing.baking import paint_of
+from engine.canvas.placing.baking import paint_of, shown_over
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED, Pose
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
-from engine.painting.layer_commands import CUT
-from engine.painting.layering.placing_members import Placing
+from engine.painting.layer_commands import CUT, SetLayer
 from engine.painting.value import Painting
 from engine.session.copied_part import selected_paint
 from engine.session.merging import cleared
@@ -51,21 +50,38 @@ def lifted_part(painting: Painting, node: Node, way: str) -> LiftedPart:
     return LiftedPart(left, part.branched(), painting.selection)
 
 
-def part_moved(painting: Painting, node: Node, placing: Placing, way: str) -> Painting:
-    """Returns the painting with what is selected of a layer elsewhere, and selected there; `way`: as a `SetLayer` has
-    it.
+def part_moved(painting: Painting, node: Node, command: SetLayer) -> Painting:
+    """Returns the painting with what is selected of a layer elsewhere, and selected there.
 
-    By quarter turns and powers of two it is laid into the layer, its very pixels.  Else it becomes a layer above it,
-    hidden, and a placement shows that.
+    By quarter turns and powers of two it is laid into the layer, its very pixels; else as pixels of the level that the
+    command tells.  Where it tells none it becomes a layer above it, hidden, and a placement shows that.
     """
-    lifted, pose = lifted_part(painting, node, way), placing.posed(UNMOVED)
-    root = painting.root
+    assert command.placing is not None
+    assert command.selected is not None
+    lifted, pose = lifted_part(painting, node, command.selected), command.placing.posed(UNMOVED)
     chosen = selection_at(lifted.selection, pose, painting.frame, painting.grid)
+    if pose.similarity.quarter is None and command.baked is None:
+        return replace(_with_part_above(painting, lifted, pose), selection=chosen)
+    paint = _laid(painting, lifted, pose, command.baked)
+    root = layers.substitute(painting.root, node.name, replace(lifted.layer, pyramid=paint))
+    return replace(painting, root=root, selection=chosen)
+
+
+def _laid(painting: Painting, lifted: LiftedPart, pose: Pose, level: int | None) -> Pyramid:
+    """Returns the paint of a layer with what was taken out of it in its new place; `level`: of the pixels that it
+    becomes where it is sampled."""
+    rest = lifted.layer.pyramid
     if pose.similarity.quarter is not None:
-        paint = laid_over(lifted.layer.pyramid, baked(lifted.part, pose.similarity))
-        root = layers.substitute(root, node.name, replace(lifted.layer, pyramid=paint))
-        return replace(painting, root=root, selection=chosen)
-    return replace(_with_part_above(painting, lifted, pose), selection=chosen)
+        return laid_over(rest, baked(lifted.part, pose.similarity))
+    assert level is not None
+    root, shown = _shown_alone(lifted.part, pose)
+    return shown_over(rest, root, shown, painting.frame, level)
+
+
+def _shown_alone(paint: Pyramid, pose: Pose) -> tuple[Group, Placement]:
+    """Returns a tree in which a placement shows some paint by a pose, and the placement."""
+    shown = Placement(2, "shown", of=1, pose=pose)
+    return Group(0, "root", children=(Layer(1, "held", pyramid=paint), shown)), shown
 
 
 def _with_part_above(painting: Painting, lifted: LiftedPart, pose: Pose) -> Painting:
@@ -90,8 +106,6 @@ def _place_above(root: Group, layer: Layer) -> tuple[str | None, int]:
 
 def part_tried(painting: Painting, lifted: LiftedPart, pose: Pose) -> Painting:
     """Returns how a painting looks with what was taken out of a layer elsewhere, made at once: no paint is touched."""
-    if pose.similarity.quarter is None:
-        return _with_part_above(painting, lifted, pose)
     node, number = lifted.layer, layers.next_id(painting.root)
     names = [layers.free_name(painting.root, f"{node.name} {word}") for word in ("left", "taken", "seen")]
     left = Layer(number, names[0], pyramid=node.pyramid)
@@ -108,6 +122,5 @@ def selection_at(selection: Selection, pose: Pose, frame: Rect, grid: int) -> Se
     """Returns a selection as a pose shows it."""
     if pose.similarity.quarter is not None:
         return replace(selection, pyramid=baked(selection.pyramid, pose.similarity))
-    held = Layer(1, "selection", pyramid=selection.pyramid)
-    shown = Placement(2, "shown", of=held.id, pose=pose)
-    return replace(selection, pyramid=paint_of(Group(0, "root", children=(held, shown)), shown, frame, grid))
+    root, shown = _shown_alone(selection.pyramid, pose)
+    return replace(selection, pyramid=paint_of(root, shown, frame, grid))

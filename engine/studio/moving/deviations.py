@@ -50,8 +50,7 @@ class Deviations(Owned):
         paint = self._paint_of(painting, node, part)
         here = node.pose if isinstance(node, Placement) else UNMOVED
         pose = placing.posed(here)
-        above = part is not None and pose.similarity.quarter is None  # it lies on a layer of its own
-        way = request.name, request.selected, request.copy, above
+        way = request.name, request.selected, request.copy
         if paint is None:
             return Deviation(seen, painting, way, anywhere, anywhere)
         own = place_of(paint, node, here) if part is None else _taken(painting, part)

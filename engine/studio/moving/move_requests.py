@@ -32,11 +32,13 @@ class AskExtent:
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """How far a layer or group reaches; a placement, in the places of its source.  None: there is nothing."""
+    """How far a layer or group reaches; a placement, in the places of its source.  None: there is nothing.  `finest`:
+    the finest level of what is selected."""
 
     name: str
     part: SourcePart | None
     selected: bool = False
+    finest: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

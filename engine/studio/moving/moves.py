@@ -31,7 +31,7 @@ class Moves(Owned):
 
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
-        self._asked: tuple[Painting, str, bool, Reach] | None = None
+        self._asked: tuple[Painting, str, int | None, Reach] | None = None  # `Extent.finest` of what is selected
         self._deviations = Deviations()
         self._lifted: tuple[Painting, str, str, LiftedPart] | None = None  # the last one, and of what
         self.handlers: dict[type, Callable[[Any], None]] = {
@@ -49,12 +49,13 @@ class Moves(Owned):
         """Looks at the next piece of what is asked for; tells it when that was the last."""
         assert self._asked is not None
         asked, self._asked = self._asked, None  # what fails is not tried again
-        painting, name, selected, reach = asked
+        painting, name, finest, reach = asked
+        selected = finest is not None
         try:
             next(reach)
         except StopIteration as told:
             self._deviations.reached(painting, name, selected, told.value)
-            self._easel.send(Extent(name, None if told.value.rect.empty else told.value, selected))
+            self._easel.send(Extent(name, None if told.value.rect.empty else told.value, selected, finest))
         except LayerError:  # it is gone meanwhile
             self._easel.send(Extent(name, None, selected))
         else:
@@ -63,13 +64,13 @@ class Moves(Owned):
     def _ask(self, request: AskExtent) -> None:
         session = self._easel.session
         painting = alone = session.painting
-        name = request.name
+        name, finest = request.name, None
         try:
             if request.selected:
                 lifted = self._part(painting, name, CUT)
-                part = replace(lifted.layer, pyramid=lifted.part)
+                part, finest = replace(lifted.layer, pyramid=lifted.part), lifted.part.finest or 0
                 alone = replace(painting, root=layers.substitute(painting.root, name, part))
-            self._asked = painting, name, request.selected, reach_of(alone, name, request.level, session.cache)
+            self._asked = painting, name, finest, reach_of(alone, name, request.level, session.cache)
         except LayerError:
             self._asked = None
             self._easel.send(Extent(name, None, request.selected))

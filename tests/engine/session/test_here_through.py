@@ -253,6 +253,11 @@ SCENES = {
         BOX,
         {"do": "layer", "set": "B", "selected": "copy", "at": [20, -10], "c": [0.8, 0.7]},
     ],
+    "moved part, turned and laid": [
+        *LAYERED,
+        BOX,
+        {"do": "layer", "set": "B", "selected": "cut", "at": [20, -10], "c": [0.8, 0.7], "baked": 1},
+    ],
     "inverted mask": [
         *LAYERED,
         BOX,
