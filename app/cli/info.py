@@ -183,7 +183,7 @@ def _plot(plot: Plot) -> dict[str, Any]:
         "name": plot.name,
         "depth": plot.depth,
         "level": plot.level,
-        "pixels": sum(int(mask.sum()) for mask in masks),
+        "pixels": sum(int(mask.data.sum()) for mask in masks),
         "bounds": [rect.x0, rect.y0, rect.width, rect.height],
     }
 

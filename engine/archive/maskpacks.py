@@ -23,7 +23,7 @@ from engine.files.fault import FileError
 from engine.files.inflate import DeflateError, Inflated
 from engine.files.strict_json import dumps, loads
 from engine.painting.commands import PLACE_LIMIT
-from engine.texture.example.tiles import NONE, TILE_SIDE, Key, Tiles
+from engine.texture.example.tiles import NONE, TILE_SIDE, Key, TilePlanes, Tiles, sealed
 
 MAGIC = b"inkmask\x01"
 TILES = 1 << 14  # in a pack
@@ -32,8 +32,7 @@ HEAD_CAP = 24 << 20  # bytes of the head
 DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of a row or column, with its sign
 _LEVEL = 1
 _ADDRESS = re.compile("-?[0-9a-f]+")
-_FULL = np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8)  # most tiles are: they are one array
-_FULL.flags.writeable = False
+_FULL = sealed(np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8))  # most tiles are: they are one
 
 
 def grouped(masks: Tiles) -> Iterator[list[Key]]:
@@ -43,7 +42,7 @@ def grouped(masks: Tiles) -> Iterator[list[Key]]:
         yield keys[start : start + TILES]
 
 
-def pack(masks: Mapping[Key, np.ndarray], keys: Sequence[Key]) -> bytes:
+def pack(masks: Mapping[Key, TilePlanes], keys: Sequence[Key]) -> bytes:
     """Returns the pack of some tiles, in their order: the same tiles give the same bytes."""
     runs: list[list[Any]] = []
     for (row, column), before in zip(keys, [None, *keys], strict=False):
@@ -51,7 +50,7 @@ def pack(masks: Mapping[Key, np.ndarray], keys: Sequence[Key]) -> bytes:
             runs[-1][2] += 1
         else:
             runs.append([f"{row:x}", f"{column:x}", 1])
-    bits = np.packbits(np.concatenate([masks[key] for key in keys]) > 0, axis=-1)
+    bits = np.packbits(np.concatenate([masks[key].data for key in keys]) > 0, axis=-1)
     head = dumps(runs).encode()
     return b"".join([MAGIC, struct.pack("<I", len(head)), head, isal_zlib.compress(bits.tobytes(), _LEVEL)])
 
@@ -103,12 +102,10 @@ def _address(text: Any) -> int:
     return int(text, 16)
 
 
-def _mask(bits: np.ndarray) -> np.ndarray:
+def _mask(bits: np.ndarray) -> TilePlanes:
     if (bits == 255).all():
         return _FULL
-    mask = np.unpackbits(bits).reshape(1, TILE_SIDE, TILE_SIDE)
-    mask.flags.writeable = False
-    return mask
+    return sealed(np.unpackbits(bits).reshape(1, TILE_SIDE, TILE_SIDE))
 
 
 def joined(parts: Sequence[Tiles], name: str) -> Tiles:

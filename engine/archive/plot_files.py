@@ -33,7 +33,7 @@ from engine.texture.example import region as regions
 from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar
 from engine.texture.example.parameters import FIELDS, Parameters, with_values
 from engine.texture.example.region import Region
-from engine.texture.example.tiles import NONE, TILE_SIDE, Tiles
+from engine.texture.example.tiles import NONE, TILE_SIDE, Tiles, sealed
 from engine.texture.image import ImageSource
 
 GROWN = 1 << 17  # bytes in memory of a tile that is grown, with all its levels, about
@@ -101,7 +101,7 @@ def crc(plot: Plot) -> int:
     """CRC-32 of the plot's pixels at its own level, row by row of tiles: little-endian, as they are shown."""
     found = 0
     for _, tile in sorted(plot.shown[0].items()) if plot.shown else ():
-        found = isal_zlib.crc32(np.ascontiguousarray(tile, "<f4").data.cast("B"), found)
+        found = isal_zlib.crc32(np.ascontiguousarray(tile.data, "<f4").data.cast("B"), found)
     return found
 
 
@@ -287,8 +287,8 @@ def _check_apart(plots: Sequence[Plot], where: str) -> None:
     taken: dict[tuple[float, int], dict[tuple[int, int], np.ndarray]] = {}
     for plot in plots:
         held = taken.setdefault((plot.depth, plot.level), {})
-        for key, mask in plot.region.masks[0].items():
-            before = held.get(key)
+        for key, tile in plot.region.masks[0].items():
+            before, mask = held.get(key), tile.data
             if before is not None and (before & mask).any():
                 raise FileError(where, f"plot {shown(plot.name)}: found pixels of another plot of its depth in it")
             held[key] = mask if before is None else before | mask
@@ -311,8 +311,6 @@ def _coarser(fine: Tiles) -> Tiles:
         for y, x in ((0, 0), (0, 1), (1, 0), (1, 1)):
             part = fine.get((2 * row + y, 2 * column + x))
             if part is not None:
-                wide[y * TILE_SIDE : (y + 1) * TILE_SIDE, x * TILE_SIDE : (x + 1) * TILE_SIDE] = part[0]
-        tile = halved_region(wide)[None]
-        tile.flags.writeable = False
-        found[row, column] = tile
+                wide[y * TILE_SIDE : (y + 1) * TILE_SIDE, x * TILE_SIDE : (x + 1) * TILE_SIDE] = part.data[0]
+        found[row, column] = sealed(halved_region(wide)[None])
     return found.finish()

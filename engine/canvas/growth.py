@@ -27,7 +27,7 @@ from engine.texture.example import tiles
 from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.region import Region
 from engine.texture.example.region_window import OUTSIDE
-from engine.texture.example.tiles import NONE, Tiles
+from engine.texture.example.tiles import NONE, TilePlanes, Tiles
 
 _NOWHERE = Rect(0, 0, 0, 0)
 _MOST_RECTS = 32  # that changes of one plot are told by
@@ -121,7 +121,7 @@ def swapped(growth: Growth, plot: Plot, name: str, key: str, exemplar: Exemplar)
         own = Plot(*order[:2], name, key, regions.empty(exemplar, plot.region.seed))
     masks = plot.region.masks[0]
     for place, mask in masks.items():
-        own = _painted(own, tiles.rect_of(place), mask[0] > 0, False)
+        own = _painted(own, tiles.rect_of(place), mask.data[0] > 0, False)
     return _ordered([*(p for p in growth if p.order != order and p is not plot), replace(own, turn=turn)], growth)
 
 
@@ -355,12 +355,12 @@ def _fewer(rects: list[Rect]) -> list[Rect]:
     return rects
 
 
-def arrays(growth: Growth) -> dict[int, int]:
-    """Returns the bytes of all that a growth holds, by the identity of each array."""
-    found: dict[int, int] = {}
+def tiles_of(growth: Growth) -> set[TilePlanes]:
+    """Returns all tiles that a growth holds."""
+    found: set[TilePlanes] = set()
     for plot in growth:
         region = plot.region
         held = (*region.masks, *plot.shown, *(part for n in region.levels for part in (n.mask, n.above, n.sources)))
         for part in {id(part): part for part in held}.values():
-            found |= {id(tile): tile.nbytes for tile in part.values()}
+            found.update(part.values())
     return found

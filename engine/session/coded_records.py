@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 from isal import isal_zlib
@@ -22,6 +23,15 @@ from engine.texture.sparse_planes import OfSheets, SparsePlanes
 WAY = 8  # records of a tile that are coded one by the next, then one by itself: so that no way to one is long
 _MADE = 32 << 20  # bytes of data kept that were asked for
 _OVERHEAD = 150  # bytes of a coded record's own objects, roughly
+
+
+class Packed(Protocol):
+    """What is told by something packed."""
+
+    @property
+    def packed(self) -> bytes | Spilled:
+        """Gives it, or where on disk it is."""
+        ...
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -161,7 +171,7 @@ def encode(record: Record, other: Record | None) -> int:
     return max(taken - coded.nbytes, 1)
 
 
-def put_away(coded: CodedData) -> int:
+def put_away(coded: Packed) -> int:
     """Puts what is packed away on disk.  Returns the bytes of memory that it takes less: 0 where it lies there already,
     is so small that its place there is told in as many, or has no room."""
     packed = coded.packed

@@ -13,6 +13,7 @@ from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
 from engine.canvas.store import RECORD_OVERHEAD, Change, Level, Pyramid, Record, changed_rects
 from engine.numeric.address import Rect, TileKey
+from engine.texture.example.tiles import TilePlanes
 from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
@@ -63,8 +64,7 @@ def _regrown(one: Growth, other: Growth) -> int:
     """Returns the bytes of what was painted on a layer with examples that another state has not."""
     if one is other:
         return 0
-    there = growths.arrays(other)
-    return sum(size for array, size in growths.arrays(one).items() if array not in there)
+    return sum(tile.nbytes for tile in growths.tiles_of(one) - growths.tiles_of(other))
 
 
 def changed_records(far: Group, near: Group) -> Iterator[OnlyHere]:
@@ -83,6 +83,14 @@ def apart_records(far: Group, near: Group) -> Iterator[OnlyHere]:
         if there.get(layer.id) != layer.pyramid.uid:
             yield from ((key, record, None) for key, record in layer.pyramid.all_records())
     yield from changed_records(far, near)
+
+
+def apart_tiles(far: Group, near: Group) -> set[TilePlanes]:
+    """Returns the tiles of what was painted with examples that one state of the layers has, and another nowhere."""
+    there = {layer.id: layer.growth for layer in layers.layers(near)}
+    changed = [layer.growth for layer in layers.layers(far) if there.get(layer.id) is not layer.growth]
+    found: set[TilePlanes] = set().union(*map(growths.tiles_of, changed))
+    return found.difference(*map(growths.tiles_of, there.values())) if found else found
 
 
 def lost_records(old: Group, new: Group) -> Iterator[Record]:

@@ -15,6 +15,9 @@ from collections import deque
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
+
+from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.layers import Group
 from engine.canvas.store import Record
@@ -23,9 +26,11 @@ from engine.keeping import memory
 from engine.numeric.address import TileKey
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, decode
-from engine.session.differing import apart_records, difference, lost_records
+from engine.session.coded_tiles import decode_tile
+from engine.session.differing import apart_records, apart_tiles, difference, lost_records
 from engine.session.line import StepLine, Undoable
 from engine.session.old_commits import OldCommits
+from engine.texture.example.tiles import TilePlanes
 
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
 _AT_ONCE = 256 << 10  # bytes of data that are coded in one piece of work
@@ -58,6 +63,7 @@ class History(Owned):
         # Those that a replay keeps, because it takes them back, may take as much as any.
         self._limit = math.inf if bytes_cap is None else bytes_cap or memory.history_share()
         self._mixed: deque[tuple[TileKey, Record]] = deque()  # of the present or another state, of which some are coded
+        self._grown: deque[TilePlanes] = deque()  # tiles of the present that are coded, or were
         self._old = OldCommits()
         self._root: Group | None = None  # the present, where it was another before
         self.forgotten, self.tight = 0, False
@@ -111,6 +117,7 @@ class History(Owned):
             left, self._root = self._root, left
         # What else the present holds it held before.
         self._mixed.extend((key, record) for key, record, _ in apart_records(self._root, left))
+        self._grown.extend(tile for tile in apart_tiles(self._root, left) if not isinstance(tile.held, np.ndarray))
         return step
 
     def at(self, by: int) -> Painting | None:
@@ -137,7 +144,7 @@ class History(Owned):
         nothing else is to be done."""
         coding = sum(max(0, line.plain - self._at_hand) for line in (self._done, self._undone))
         crowded = self._done.in_memory > 0 and (self.tight or self._done.beyond > 0.75 * self._limit)
-        return coding + int(len(self._mixed) > 0) + int(crowded)
+        return coding + int(len(self._mixed) + len(self._grown) > 0) + int(crowded)
 
     @property
     def _at_hand(self) -> int:
@@ -151,6 +158,11 @@ class History(Owned):
             key, record = self._mixed.popleft()
             if _in_the_way(record, self.tight) and _has(self._root, key, record):
                 decode(record)
+                return
+        while self._grown:
+            tile = self._grown.popleft()
+            if not self.tight and _shows(self._root, tile):
+                decode_tile(tile)
                 return
         line = max(self._done, self._undone, key=lambda line: line.plain)
         if line.plain > self._at_hand:
@@ -182,6 +194,11 @@ class History(Owned):
 def _has(root: Group | None, key: TileKey, record: Record) -> bool:
     """Tells whether a state of the layers has a record."""
     return root is not None and any(layer.pyramid.holds(key, record) for layer in layers.layers(root))
+
+
+def _shows(root: Group | None, tile: TilePlanes) -> bool:
+    """Tells whether what was painted with examples in a state of the layers has a tile."""
+    return root is not None and any(tile in growths.tiles_of(layer.growth) for layer in layers.layers(root))
 
 
 def _in_the_way(record: Record, tight: bool) -> bool:

@@ -12,7 +12,9 @@ from engine.canvas.layers import Group
 from engine.canvas.store import Record
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
-from engine.session.differing import apart_records, difference
+from engine.session.coded_tiles import CodedTile, encode_tile
+from engine.session.differing import apart_records, apart_tiles, difference
+from engine.texture.example.tiles import TilePlanes
 
 STEP_OVERHEAD = 6000  # bytes of a step's own objects, roughly: most are nodes of the maps of some ten levels
 
@@ -35,7 +37,7 @@ class StepEntry:
     step: Undoable
     held: int
     coded: bool = False
-    records: list[Record] = field(default_factory=list)
+    records: list[Record | TilePlanes] = field(default_factory=list)
 
 
 class StepLine:
@@ -132,7 +134,7 @@ class StepLine:
         """Puts what the farthest coded step in memory holds away on disk, as far as there is room."""
         entry = self.entries[self._away]
         coded = (record.held for record in entry.records)
-        saved = sum(put_away(held) for held in coded if isinstance(held, CodedData))
+        saved = sum(put_away(held) for held in coded if isinstance(held, CodedData | CodedTile))
         entry.records.clear()
         entry.held -= saved
         self.held -= saved
@@ -146,7 +148,8 @@ class StepLine:
             self.put_away()
 
     def _pieces(self, entry: StepEntry) -> Iterator[int]:
-        """Codes one record of a step's far end after the other; yields the bytes of data that were looked at."""
+        """Codes one record, or tile of an example, of a step's far end after the other; yields the bytes of
+        data that were looked at."""
         far, near = _ends(entry.step, self._undone)
         entry.records.clear()
         elsewhere = [layer.pyramid for layer in layers.layers(near)]
@@ -156,6 +159,11 @@ class StepLine:
                 self._code(record, other)
                 entry.records.append(record)
                 yield size
+        for tile in apart_tiles(far, near):
+            size = tile.nbytes
+            encode_tile(tile)
+            entry.records.append(tile)
+            yield size
 
     def _code(self, record: Record, other: Record | None) -> None:
         """Codes a record of a far end by the one in its place; of the steps that are done, which are forgotten one by

@@ -9,10 +9,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from engine.canvas import growth as growths
 from engine.canvas.layers import Group, layers
 from engine.canvas.rising.paged_level import PagedLevel
 from engine.canvas.store import Pyramid, Record
 from engine.session.coded_records import CodedData, encode, put_away
+from engine.session.coded_tiles import CodedTile, encode_tile
 from engine.session.paged_records import put_page_away
 from engine.texture.sparse_planes import SparsePlanes
 
@@ -28,7 +30,8 @@ class Paging:
 
     First records of levels that have many go to disk, by pages, as far as they were stored long ago.  Then it codes
     what was stored long ago, of the levels farthest from the one that is seen; then what was stored of late; then what
-    is coded goes to disk.  `wanted`: bytes that are still to be freed.
+    is coded goes to disk; at last what was painted with examples is coded, and goes there.  `wanted`: bytes that are
+    still to be freed.
 
     All records of one state of the painting are looked through before those of another are, and then not until the
     process has grown: where nearly all is small already, each look finds little.
@@ -80,6 +83,10 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
     for pyramid in pyramids:
         for record in _records(pyramid, level):
             yield put_away(record.held) if isinstance(record.held, CodedData) else 0
+    grown = [tile for layer in layers(root) for tile in growths.tiles_of(layer.growth)]
+    yield from map(encode_tile, grown)
+    for tile in grown:
+        yield put_away(tile.held) if isinstance(tile.held, CodedTile) else 0
 
 
 def _records(pyramid: Pyramid, level: int | None) -> Iterator[Record]:

@@ -9,7 +9,7 @@ from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import large_pages, memory
-from engine.session import coded_records, paged_records
+from engine.session import coded_records, coded_tiles, paged_records
 from engine.session.history import History
 from engine.session.paging import Paging
 
@@ -64,6 +64,7 @@ class Room(Owned):
         if over > 0:
             DECODED.shrink(over)
             coded_records.forget_made(over)
+            coded_tiles.forget_tiles_made(over)
             paged_records.forget_read(over)
             cache.shrink(max(cache.held - over, memory.cache_share() // 4, SMALLEST_CACHE))
             memory.give_back()

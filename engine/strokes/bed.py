@@ -125,6 +125,6 @@ def lies_in(growth: Growth, level: int, rect: Rect) -> bool:
         at = at.grown(_SPREAD) if level > plot.level else at
         for key in keys_within(at, (masks,)):
             place = tiles.rect_of(key)
-            if masks[key][0][place.intersect(at).slices(place)].any():
+            if masks[key].data[0][place.intersect(at).slices(place)].any():
                 return True
     return False

@@ -21,9 +21,9 @@ from engine.numeric.pyramid import reduce
 from engine.texture.example import show, tiles
 from engine.texture.example.region import Region
 from engine.texture.example.region_window import OUTSIDE
-from engine.texture.example.tiles import NONE, TILE_SIDE, Key, Tiles
+from engine.texture.example.tiles import NONE, TILE_SIDE, Key, TilePlanes, Tiles, sealed
 
-Shown = tuple[Tiles, ...]  # float32 (4, TILE_SIDE, TILE_SIDE) tiles, from the region's own level to coarser ones
+Shown = tuple[Tiles, ...]  # float32 (4, TILE_SIDE, TILE_SIDE), from the region's own level to coarser ones
 FEW = 4  # tiles: with no more of them, a level is coarse enough to be the last that is kept
 _HALF = TILE_SIDE // 2
 _RUN = 16  # tiles between two pauses
@@ -52,7 +52,7 @@ def following(
     """Yields what `region` looks like, from what `drawn`, an earlier state of it (None: nothing of it), looks like;
     pauses after some tiles.  Tiles that look alike stay the same objects."""
     base = shown[0] if shown else NONE
-    held: dict[Key, np.ndarray] = {}
+    held: dict[Key, TilePlanes] = {}
     stale = yield from _stale(base, drawn, region)
     for found in _looked_at(base, region, list(_runs(stale)), threads):
         held.update(found)
@@ -78,13 +78,13 @@ def _runs(stale: dict[Key, Rect]) -> Iterator[Rect]:
 
 def _looked_at(
     base: Tiles, region: Region, runs: list[Rect], threads: Executor | None
-) -> Iterator[dict[Key, np.ndarray]]:
+) -> Iterator[dict[Key, TilePlanes]]:
     """For each rectangle the tiles that change, in order."""
     if threads is None or len(runs) < _SHARED:
         for run in runs:
             yield _look(base, region, run)
         return
-    jobs: deque[Future[dict[Key, np.ndarray]]] = deque()
+    jobs: deque[Future[dict[Key, TilePlanes]]] = deque()
     try:
         for run in runs:
             jobs.append(threads.submit(_look, base, region, run))
@@ -97,9 +97,9 @@ def _looked_at(
             job.cancel()
 
 
-def _look(base: Tiles, region: Region, rect: Rect) -> dict[Key, np.ndarray]:
+def _look(base: Tiles, region: Region, rect: Rect) -> dict[Key, TilePlanes]:
     new = show.preview(region, rect)
-    held: dict[Key, np.ndarray] = {}
+    held: dict[Key, TilePlanes] = {}
     for key in tiles.keys_of(rect):
         place = tiles.rect_of(key)
         both = place.intersect(rect)
@@ -169,12 +169,12 @@ def keys_within(area: Rect, maps: Iterable[Tiles]) -> set[Key]:
     return found
 
 
-def _sourceless(mask: np.ndarray, names: np.ndarray | None, key: Key) -> Rect:
+def _sourceless(mask: TilePlanes, names: TilePlanes | None, key: Key) -> Rect:
     """Returns the smallest rectangle around a tile's pixels that have no source."""
     at = tiles.rect_of(key)
     if names is None:
         return at
-    y0, y1, x0, x1 = _bounds_of(mask[0], names[-1])
+    y0, y1, x0, x1 = _bounds_of(mask.data[0], names.data[-1])
     return Rect(at.x0 + x0, at.y0 + y0, at.x0 + x1, at.y0 + y1)
 
 
@@ -192,24 +192,23 @@ def _bounds_of(mask: np.ndarray, names: np.ndarray) -> tuple[int, int, int, int]
 
 
 def _lay(
-    held: dict[Key, np.ndarray], key: Key, old: np.ndarray | None, place: tuple[slice, ...], new: np.ndarray
+    held: dict[Key, TilePlanes], key: Key, old: TilePlanes | None, place: tuple[slice, ...], new: np.ndarray
 ) -> None:
     """Lays `new` on the part `place` of the tile `old`, and holds it if that changes it."""
-    if not new.any() if old is None else np.array_equal(old[:, *place], new):
+    if not new.any() if old is None else np.array_equal(old.data[:, *place], new):
         return
-    tile = np.zeros((4, TILE_SIDE, TILE_SIDE), np.float32) if old is None else old.copy()
+    tile = np.zeros((4, TILE_SIDE, TILE_SIDE), np.float32) if old is None else old.data.copy()
     tile[:, *place] = new
-    tile.flags.writeable = False
-    held[key] = tile
+    held[key] = sealed(tile)
 
 
-def _put(level: Tiles, held: dict[Key, np.ndarray]) -> Tiles:
+def _put(level: Tiles, held: dict[Key, TilePlanes]) -> Tiles:
     """Returns a level with some of its tiles replaced; those that are empty are left out."""
     if not held:
         return level
     changing = level.mutate()
     for key, tile in held.items():
-        if tile.any():
+        if tile.data.any():
             changing[key] = tile
         else:
             changing.pop(key, None)
@@ -220,7 +219,7 @@ def _with_coarser(shown: Shown, base: Tiles, touched: set[Key]) -> Generator[Non
     levels = [base]
     while len(levels[-1]) > FEW:
         n = len(levels)
-        held: dict[Key, np.ndarray] = {}
+        held: dict[Key, TilePlanes] = {}
         old, changed = (shown[n], touched) if n < len(shown) else (NONE, set(levels[-1]))
         for k, key in enumerate(changed):
             _reduce_tile(held, old, levels[-1], key)
@@ -234,17 +233,17 @@ def _with_coarser(shown: Shown, base: Tiles, touched: set[Key]) -> Generator[Non
 def coarser(old: Tiles, finer: Tiles, touched: set[Key]) -> tuple[Tiles, set[Key]]:
     """Returns the level above `finer`, of whose tiles `touched` are not those that `old` was made of; what differs
     in it."""
-    held: dict[Key, np.ndarray] = {}
+    held: dict[Key, TilePlanes] = {}
     for key in touched:
         _reduce_tile(held, old, finer, key)
     return _put(old, held), set(held)
 
 
-def _reduce_tile(held: dict[Key, np.ndarray], old: Tiles, finer: Tiles, place: Key) -> None:
+def _reduce_tile(held: dict[Key, TilePlanes], old: Tiles, finer: Tiles, place: Key) -> None:
     """Lays a quarter of a tile above `finer`, that above the tile at `place`, on what `held` or `old` has there."""
     row, column = place
     key, child = (row >> 1, column >> 1), finer.get(place)
-    new = np.zeros((4, _HALF, _HALF), np.float32) if child is None else reduce(child)
+    new = np.zeros((4, _HALF, _HALF), np.float32) if child is None else reduce(child.data)
     top, left = (row & 1) * _HALF, (column & 1) * _HALF
     _lay(held, key, held.get(key, old.get(key)), (slice(top, top + _HALF), slice(left, left + _HALF)), new)
 
@@ -264,7 +263,7 @@ def over(out: np.ndarray, shown: Shown, region: Region, finer: int, rect: Rect) 
     for key in keys_within(rect, (level,)):
         place = tiles.rect_of(key)
         part = place.intersect(rect)
-        above, height, width = level[key], part.height, part.width
+        above, height, width = level[key].data, part.height, part.width
         over_tile(
             out, part.y0 - rect.y0, part.x0 - rect.x0, above, part.y0 - place.y0, part.x0 - place.x0, height, width
         )

@@ -4,6 +4,8 @@ the same objects, so that what changed is found by comparing."""
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from immutables import Map
@@ -13,9 +15,53 @@ from engine.numeric.kernel import kernel
 
 TILE_SIDE = 64  # pixels along a tile
 Key = tuple[int, int]  # row and column of a tile, of any size
-Tiles = Map[Key, np.ndarray]  # read-only arrays (planes, TILE_SIDE, TILE_SIDE); a tile that is not there is empty
-NONE: Tiles = Map()
 _LAST = slice(-1, None)
+_OVERHEAD = 180  # bytes of a tile's own objects, roughly
+
+
+class CodedPlanes(Protocol):
+    """Planes of a tile in fewer bytes."""
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that they take."""
+        ...
+
+    def made(self) -> np.ndarray:
+        """Returns the planes, read-only."""
+        ...
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class TilePlanes:
+    """The planes of one tile; `held`: these, or what they are made of."""
+
+    held: np.ndarray | CodedPlanes
+
+    @property
+    def data(self) -> np.ndarray:
+        """Gives them, read-only: (planes, TILE_SIDE, TILE_SIDE)."""
+        held = self.held
+        return held if isinstance(held, np.ndarray) else held.made()
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that the tile takes."""
+        return self.held.nbytes + _OVERHEAD
+
+    def exchange(self, held: np.ndarray | CodedPlanes) -> None:
+        """Holds the same planes in another form.  Other threads may read them meanwhile."""
+        object.__setattr__(self, "held", held)
+
+
+Tiles = Map[Key, TilePlanes]  # a tile that is not there is empty
+NONE: Tiles = Map()
+
+
+def sealed(planes: np.ndarray) -> TilePlanes:
+    """Returns a tile of planes that nobody writes to any more."""
+    planes.flags.writeable = False
+    return TilePlanes(planes)
 
 
 def keys_of(rect: Rect) -> Iterator[Key]:
@@ -61,7 +107,7 @@ def gathered(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
     for key, outer, inner in _shared(rect):
         tile = tiles.get(key)
         if tile is not None:
-            out[:, *outer] = tile[:, *inner]
+            out[:, *outer] = tile.data[:, *inner]
     return out
 
 
@@ -70,7 +116,7 @@ def gathered_last(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
     for key, outer, inner in _shared(rect):
         tile = tiles.get(key)
         if tile is not None:
-            out[0, *outer] = tile[-1, *inner]
+            out[0, *outer] = tile.data[-1, *inner]
     return out
 
 
@@ -83,7 +129,8 @@ def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect)
     changing, altered = tiles.mutate(), False
     given = values[(slice(None), *within.slices(rect))]
     for key, outer, inner in _shared(within):
-        new, old = given[:, *outer], tiles.get(key)
+        new, there = given[:, *outer], tiles.get(key)
+        old = None if there is None else there.data
         if old is not None and (old[:, *inner] == new).all():
             continue
         blank = (new == empty).all()
@@ -92,11 +139,10 @@ def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect)
         altered = True
         tile = np.full((len(values), TILE_SIDE, TILE_SIDE), empty, values.dtype) if old is None else old.copy()
         tile[:, *inner] = new
-        tile.flags.writeable = False
         if blank and (tile == empty).all():
             changing.pop(key, None)
         else:
-            changing[key] = tile
+            changing[key] = sealed(tile)
     return changing.finish() if altered else tiles
 
 
@@ -122,9 +168,10 @@ def changed_rects(old: Tiles, new: Tiles, empty: int, planes: slice = _LAST) -> 
     it."""
     nothing = None
     for key in changed(old, new):
-        one, other = old.get(key), new.get(key)
+        before, after = old.get(key), new.get(key)
+        one, other = (None if tile is None else tile.data for tile in (before, after))
         if one is None or other is None:
-            there = one if one is not None else new[key]
+            there = one if one is not None else new[key].data
             if nothing is None:
                 nothing = np.full(there.shape, empty, there.dtype)
                 nothing.flags.writeable = False  # as tiles are: so the kernel is compiled once for each type

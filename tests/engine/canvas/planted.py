@@ -66,7 +66,7 @@ def same(one, other) -> bool:
         return False
     for left, right in zip(one, other, strict=True):
         for a, b in zip(left.shown, right.shown, strict=True):
-            if set(a) != set(b) or not all(np.array_equal(tile, b[key]) for key, tile in a.items()):
+            if set(a) != set(b) or not all(np.array_equal(tile.data, b[key].data) for key, tile in a.items()):
                 return False
     return True
 

@@ -47,16 +47,19 @@ def test_how_it_came_about_does_not_matter(dabs, looks):
     assert growths.previewed(watched) is watched
 
 
+EMPTY = tiles.sealed(np.zeros((4, tiles.TILE_SIDE, tiles.TILE_SIDE), np.float32))
+
+
 def follows(plot):
     """Whether all tiles show their region as it is now, and coarser ones are their means."""
     drawn, level = plot.drawn, plot.shown[0] if plot.shown else tiles.NONE
     for key in set(level) | set(drawn.masks[0]):
-        found = level.get(key, np.zeros((4, 64, 64), np.float32))
-        assert np.array_equal(found, show.preview(drawn, tiles.rect_of(key)))
+        found = level.get(key, EMPTY)
+        assert np.array_equal(found.data, show.preview(drawn, tiles.rect_of(key)))
     for above in plot.shown[1:]:
         for y, x in {(row >> 1, column >> 1) for row, column in level}:
             four = tiles.gathered(level, Rect.at(x * 128, y * 128, 128, 128), np.zeros((4, 128, 128), np.float32))
-            assert np.array_equal(above.get((y, x), np.zeros((4, 64, 64))), means(four))
+            assert np.array_equal(above.get((y, x), EMPTY).data, means(four))
         level = above
     return len(level) <= shown.FEW
 
@@ -336,11 +339,10 @@ def test_what_was_never_seen_is_seen_as_soon_as_its_coarsest_level_is_grown():
 def test_bytes_are_counted_once():
     one = growths.settled(planted((), 0, 0, 20))
     two = growths.settled(planted(one, 300, 0, 20))
-    held, more = growths.arrays(one), growths.arrays(two)
-    assert len(set(held) & set(more)) > 0.5 * len(held)
-    assert sum(held.values()) == sum(
-        tile.nbytes for tile in {id(t): t for m in _maps(one[0]) for t in m.values()}.values()
-    )
+    held, more = growths.tiles_of(one), growths.tiles_of(two)
+    assert len(held & more) > 0.5 * len(held)
+    assert held == {tile for part in _maps(one[0]) for tile in part.values()}
+    assert sum(tile.nbytes for tile in held) > sum(tile.data.nbytes for tile in held)
 
 
 def _maps(plot):
@@ -352,7 +354,7 @@ def test_tiles_cannot_be_written_to(stack):
     for plot in stack:
         for level in plot.shown:
             assert all(
-                not tile.flags.writeable and tile.shape == (4, tiles.TILE_SIDE, tiles.TILE_SIDE)
+                not tile.data.flags.writeable and tile.data.shape == (4, tiles.TILE_SIDE, tiles.TILE_SIDE)
                 for tile in level.values()
             )
 

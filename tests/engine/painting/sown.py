@@ -123,7 +123,7 @@ def alike(one, other):
     facts = [(p.depth, p.level, p.name, p.key, p.region.seed, p.region.exemplar.origin.detail) for p in (one, other)]
     masks = [p.region.masks for p in (one, other)]
     return facts[0] == facts[1] and all(
-        set(a) == set(b) and all(np.array_equal(a[k], b[k]) for k in a) for a, b in zip(*masks, strict=True)
+        set(a) == set(b) and all(np.array_equal(a[k].data, b[k].data) for k in a) for a, b in zip(*masks, strict=True)
     )
 
 

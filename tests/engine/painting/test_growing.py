@@ -136,7 +136,9 @@ def test_depths_and_examples_join_replace_or_lie_over(meadow):
     assert [plot.name for plot in growth(join)] == ["a"]
     assert sorted(plot.name for plot in growth(take)) == ["a", "b"]
     assert [(plot.name, plot.depth) for plot in growth(over)] == [("a", 0.0), ("b", 1.0)]
-    covered = [sum(int(t.sum()) for t in plot.region.masks[0].values()) for s in (take, over) for plot in growth(s)]
+    covered = [
+        sum(int(t.data.sum()) for t in plot.region.masks[0].values()) for s in (take, over) for plot in growth(s)
+    ]
     assert sum(covered[:2]) < sum(covered[2:])
 
 

@@ -27,7 +27,7 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.files.fault import FileError
 from engine.session.apply import Painting
-from engine.texture.example.tiles import TILE_SIDE
+from engine.texture.example.tiles import TILE_SIDE, sealed
 from engine.texture.image import ImageSource
 
 __all__ = ["folder", "members", "saved", "session"]
@@ -92,7 +92,7 @@ def masked(members, data):
 
 
 def test_a_mask_of_other_bytes_is_refused(members, tmp_path):
-    tile = np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8)
+    tile = sealed(np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8))
     keys = [(0, column) for column in range(40)]  # more tiles than the plot has
     bad = masked(members, maskpacks.pack(dict.fromkeys(keys, tile), keys))
     with pytest.raises(FileError, match=r"number of tiles|run of tiles"):

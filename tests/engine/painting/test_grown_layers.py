@@ -116,7 +116,7 @@ def test_bytes_of_steps(states):
     assert difference(grown, fresh) == (gained, lost)
     upper = layers.find(root, "upper")
     without = layers.with_growth(root, "upper", ())
-    assert difference(root, without) == (sum(growths.arrays(upper.growth).values()), 0)
+    assert difference(root, without) == (sum(tile.nbytes for tile in growths.tiles_of(upper.growth)), 0)
 
 
 def test_info_tells_of_it(states):

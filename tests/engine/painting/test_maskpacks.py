@@ -12,7 +12,7 @@ from isal import isal_zlib
 
 from engine.archive import maskpacks
 from engine.files.fault import FileError
-from engine.texture.example.tiles import TILE_SIDE
+from engine.texture.example.tiles import TILE_SIDE, sealed
 
 
 @given(st.sets(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1), st.integers(0, 1 << 70), st.randoms())
@@ -26,16 +26,16 @@ def test_masks_come_back(places, far, rng):
             if rng.random() < 0.5
             else rng.integers(0, 2, (1, TILE_SIDE, TILE_SIDE), np.uint8)
         )
-        tiles[row - far, column + far] = tile
+        tiles[row - far, column + far] = sealed(tile)
     keys = next(maskpacks.grouped(Map(tiles)))
     found = maskpacks.unpack(maskpacks.pack(tiles, keys), "a", len(keys))
     assert set(found) == set(tiles)
-    assert all(np.array_equal(found[key], tiles[key]) for key in tiles)
+    assert all(np.array_equal(found[key].data, tiles[key].data) for key in tiles)
 
 
 def test_many_tiles_are_cut_into_packs(monkeypatch):
     monkeypatch.setattr(maskpacks, "TILES", 3)
-    tile = np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8)
+    tile = sealed(np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8))
     masks = Map({(0, n): tile for n in range(7)})
     parts = [maskpacks.unpack(maskpacks.pack(masks, keys), "a", len(keys)) for keys in maskpacks.grouped(masks)]
     assert [len(part) for part in parts] == [3, 3, 1]

@@ -82,7 +82,7 @@ def test_what_was_painted_with_examples_when_the_third_format_began():
 def masked(masks):
     found = hashlib.sha256()
     for key, mask in sorted(masks.items()):
-        found.update(repr(key).encode() + mask.tobytes())
+        found.update(repr(key).encode() + mask.data.tobytes())
     return found.hexdigest()[:32]
 
 

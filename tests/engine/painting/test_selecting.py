@@ -161,11 +161,11 @@ def pixels(painting, level=0):
     at = WINDOW.zoomed(level)
     out = np.zeros((at.height, at.width), bool)
     for plot in plots(painting):
-        for key, (mask, *_) in plot.region.masks[0].items():
+        for key, tile in plot.region.masks[0].items():
             place = tiles.rect_of(key)
             part = place.intersect(at)
             if not part.empty:
-                out[part.slices(at)] |= mask[part.slices(place)] != 0
+                out[part.slices(at)] |= tile.data[0][part.slices(place)] != 0
     return out
 
 

@@ -46,7 +46,7 @@ def same(one, other):
         for left, right in ((a.sources, b.sources), (a.mask, b.mask)):
             assert set(left) == set(right)
             for key, tile in left.items():
-                assert np.array_equal(tile, right[key]), key
+                assert np.array_equal(tile.data, right[key].data), key
 
 
 def sources(region, rect, level=0):
