@@ -25,8 +25,8 @@ from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.numeric.address import TileKey
 from engine.painting.value import Painting
-from engine.session.coded_records import CodedData, decode
-from engine.session.coded_tiles import decode_tile
+from engine.session.coding.coded_records import CodedData, decode
+from engine.session.coding.coded_tiles import decode_tile
 from engine.session.differing import apart_records, apart_tiles, difference, lost_records
 from engine.session.line import StepLine, Undoable
 from engine.session.old_commits import OldCommits

@@ -11,8 +11,8 @@ from engine.canvas import layers
 from engine.canvas.layers import Group
 from engine.canvas.store import Record
 from engine.painting.value import Painting
-from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
-from engine.session.coded_tiles import CodedTile, encode_tile
+from engine.session.coding.coded_records import CodedData, Ways, decode, leads_to, put_away
+from engine.session.coding.coded_tiles import CodedTile, encode_tile
 from engine.session.differing import apart_records, apart_tiles, difference
 from engine.texture.example.tiles import TilePlanes
 

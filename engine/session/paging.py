@@ -13,9 +13,9 @@ from engine.canvas import growth as growths
 from engine.canvas.layers import Group, layers
 from engine.canvas.rising.paged_level import PagedLevel
 from engine.canvas.store import Pyramid, Record
-from engine.session.coded_records import CodedData, encode, put_away
-from engine.session.coded_tiles import CodedTile, encode_tile
-from engine.session.paged_records import put_page_away
+from engine.session.coding.coded_records import CodedData, encode, put_away
+from engine.session.coding.coded_tiles import CodedTile, encode_tile
+from engine.session.coding.paged_records import put_page_away
 from engine.texture.sparse_planes import SparsePlanes
 
 _SMALL = 2 << 10  # bytes of data that are not worth it

@@ -9,7 +9,7 @@ from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import large_pages, memory
-from engine.session import coded_records, coded_tiles, paged_records
+from engine.session.coding import coded_records, coded_tiles, paged_records
 from engine.session.history import History
 from engine.session.paging import Paging
 

@@ -11,9 +11,9 @@ from engine.canvas import layers
 from engine.keeping.spill import Spill, Spilled
 from engine.painting import commands as c
 from engine.painting.grown import settled
-from engine.session import coded_records
 from engine.session.apply import Refusal
-from engine.session.coded_tiles import CodedTile, decode_tile, encode_tile
+from engine.session.coding import coded_records
+from engine.session.coding.coded_tiles import CodedTile, decode_tile, encode_tile
 from engine.session.differing import difference
 from engine.session.line import STEP_OVERHEAD
 from engine.session.paging import Paging

@@ -15,9 +15,18 @@ from engine.keeping.spill import Spill
 from engine.numeric.address import TILE, Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
-from engine.session import coded_records
 from engine.session import history as histories
-from engine.session.coded_records import WAY, CodedData, CodedSheets, Ways, decode, encode, joined_bytes, split_bytes
+from engine.session.coding import coded_records
+from engine.session.coding.coded_records import (
+    WAY,
+    CodedData,
+    CodedSheets,
+    Ways,
+    decode,
+    encode,
+    joined_bytes,
+    split_bytes,
+)
 from engine.session.differing import difference
 from engine.session.history import History
 from engine.session.line import STEP_OVERHEAD

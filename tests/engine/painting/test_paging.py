@@ -20,8 +20,9 @@ from engine.keeping.spill import Spill
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
-from engine.session import coded_records, paged_records, paging
-from engine.session.coded_records import CodedData
+from engine.session import paging
+from engine.session.coding import coded_records, paged_records
+from engine.session.coding.coded_records import CodedData
 from engine.session.paging import Paging
 from engine.session.session import Session
 

@@ -15,8 +15,8 @@ from engine.keeping.recent import Recent
 from engine.keeping.spill import Spill, Spilled
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.session import coded_records
-from engine.session.coded_records import CodedData
+from engine.session.coding import coded_records
+from engine.session.coding.coded_records import CodedData
 from engine.session.history import History
 from engine.studio import requests as q
 from engine.studio.studio import Studio

@@ -9,7 +9,7 @@ import numpy as np
 
 from engine.brush.settings import Brush
 from engine.keeping.spill import PLACE_OVERHEAD, Spill, Spilled
-from engine.session import coded_records
+from engine.session.coding import coded_records
 from engine.session.session import Session
 
 _SHARED = type, ModuleType, FunctionType, BuiltinFunctionType, Spill

@@ -16,7 +16,7 @@ from engine.canvas.store import Record
 from engine.keeping.recent import Recent
 from engine.keeping.spill import Spilled, spill
 from engine.numeric.address import Rect
-from engine.session.coded_records import CodedData, CodedSheets, coded_alone
+from engine.session.coding.coded_records import CodedData, CodedSheets, coded_alone
 from engine.texture.record import Instance
 
 _READ = 24 << 20  # bytes of pages kept that were asked for

@@ -1,0 +1,1 @@
+"""Data of old states in fewer bytes."""
