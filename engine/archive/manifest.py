@@ -121,7 +121,8 @@ class Manifest:
 
     def painting(self, root: Group, textures: Map[str, Texture], chosen: Chosen = Chosen()) -> Painting:  # noqa: B008
         """Returns the painting of layers, textures and selections."""
-        root = selection_files.with_masks(replace(root, paper=self.paper), chosen.masks)
+        heaped = selection_files.with_heaps(replace(root, paper=self.paper), chosen.heaps)
+        root = selection_files.with_masks(heaped, chosen.masks)
         own = self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid
         return Painting(*own, chosen.selection, chosen.saved, guides=self.guides)
 
@@ -184,7 +185,7 @@ def format_of(painting: Painting) -> int:
     roles = any(written_role(node) for node in layers.walk(painting.root))
     chosen = painting.selection is not None or painting.selections
     clipped = any(node.clip for node in layers.walk(painting.root))
-    wrapped = any(layer.wrap is not None for layer in layers.layers(painting.root))
+    wrapped = any(layer.wrap is not None or layer.heaps for layer in layers.layers(painting.root))
     masked = any(True for _ in selection_files.masks_of(painting.root))
     if roles or clipped or wrapped or masked or chosen or painting.guides or painting.paper is not None:
         return FORMAT
@@ -267,7 +268,7 @@ def parse_manifest(value: Any) -> Manifest:
         *_bookmarks(members.take("bookmarks", []), [*told_of(lost), *left_out]),
         members.integer("arithmetic", LIBRARY, lo=LIBRARY, hi=EVERYWHERE),
         held.grid,
-        selection_files.read_selections(members.take("selections", []), _packs),
+        selection_files.read_selections(members, _packs),
         guides,
         read_paper(members) if version > PLACED_FORMAT else None,
         frozenset(one.id for one in lost),

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+HEAPS, CHANGES = "heaps", "changes"
+
 
 @dataclass(frozen=True, slots=True)
 class Mode:
@@ -22,6 +24,7 @@ class Mode:
     `eraser`: the mode that the eraser, or the pen's other end, has with such a brush.
     `section`: what the brush panel shows for it alone, by name.  `unfelt`: members of the brush that do not count.
     `ground`: what small pictures of its strokes are painted on: "" for nothing, "bars" or "colours".
+    `heaps`: what it does to heights that lie beside the paint: HEAPS, CHANGES as it does the paint, or "" for nothing.
     """
 
     name: str
@@ -36,6 +39,7 @@ class Mode:
     section: str = ""
     unfelt: frozenset[str] = frozenset()
     ground: str = ""
+    heaps: str = ""
 
     @property
     def grows(self) -> bool:
@@ -53,6 +57,7 @@ MODES: dict[str, Mode] = {
             "engine.brush.paint_edit:Painting",
             lays_ink=True,
             in_lab=True,
+            heaps=HEAPS,
         ),
         Mode(
             "erase",
@@ -63,6 +68,7 @@ MODES: dict[str, Mode] = {
             in_lab=True,
             section="eraser",
             ground="bars",
+            heaps=CHANGES,
         ),
         Mode(
             "smooth",
@@ -72,6 +78,7 @@ MODES: dict[str, Mode] = {
             in_lab=True,
             eraser="smooth",
             ground="bars",
+            heaps=CHANGES,
         ),
         Mode(
             "raster",

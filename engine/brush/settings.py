@@ -25,7 +25,11 @@ LEVEL_LIMIT = 1 << 16  # of an example's pixels
 DEEPEST = 2.0**31  # of the layers of examples
 MOST_DETAIL = 4
 
+HIGHEST = 4000.0  # px of the stroke's level
+AUTO = "auto"
+
 Curve = str | Knots  # "pressure", or knots [in, out]
+Thickness = float | str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +108,9 @@ class Brush:
 
     `example`: the texture that mode "example" grows, on the layer of depth `depth`, in pixels of `example_level` (None:
     the stroke's own); `example_detail`: how many levels of the example are finer than these.
+    `height`: what it heaps on the layer of heights in place of its paint, in pixels of the stroke's level, negative to
+    carve, "auto" for a quarter of the radius; None: its paint, by whose brightness that layer is as high.  `impasto`:
+    how thick its paint lies on other layers, likewise.
     `dynamics`: by setting, the curve of pen pressure by which its value is multiplied; the value of a setting without
     a curve stays as it is.  `extra`: members of the JSON form that this version does not know.
     """
@@ -127,6 +134,8 @@ class Brush:
     depth: float | None = None
     example_level: int | None = None
     example_detail: int = 0
+    height: Thickness = None
+    impasto: float = 0.0
     dynamics: Map[str, Any] = field(default_factory=lambda: Map({"opacity": "pressure"}))
     extra: Map[str, Any] = field(default_factory=Map)
 
@@ -135,13 +144,18 @@ class Brush:
             object.__setattr__(self, name, checks.number(getattr(self, name), f"brush.{name}", row.lo, row.hi))
         checks.one_of(self.mode, "brush.mode", tuple(MODES))
         object.__setattr__(self, "colour", checks.colour(self.colour, "brush.colour"))
-        for name in ("depth", "example_level", "example_detail"):
+        for name in ("depth", "example_level", "example_detail", "height", "impasto"):
             object.__setattr__(self, name, _READERS[name](getattr(self, name), f"brush.{name}"))
 
     @property
     def row(self) -> Mode:
         """Returns the row of its mode."""
         return MODES[self.mode]
+
+    @property
+    def heaps(self) -> float | None:
+        """Gives the `height` that it heaps, in pixels of the stroke's level."""
+        return self.radius / 4.0 if isinstance(self.height, str) else self.height
 
     @property
     def rgb(self) -> tuple[float, float, float]:
@@ -191,6 +205,8 @@ _RARE: dict[str, Any] = {
     "depth": None,
     "example_level": None,
     "example_detail": 0,
+    "height": None,
+    "impasto": 0.0,
 }
 
 
@@ -204,6 +220,10 @@ def _setting(name: str) -> Callable[[Any, str], float]:
 
 def _optional(read: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
     return lambda value, place: None if value is None else read(value, place)
+
+
+def _height(value: Any, place: str) -> Thickness:
+    return AUTO if value == AUTO else checks.number(value, place, -HIGHEST, HIGHEST)
 
 
 def _dynamics(value: Any, place: str) -> Map[str, Any]:
@@ -238,5 +258,7 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "depth": _optional(lambda value, place: checks.number(value, place, -DEEPEST, DEEPEST)),
     "example_level": _optional(lambda value, place: checks.integer(value, place, -LEVEL_LIMIT, LEVEL_LIMIT)),
     "example_detail": lambda value, place: checks.integer(value, place, 0, MOST_DETAIL),
+    "height": _optional(_height),
+    "impasto": lambda value, place: checks.number(value, place, -HIGHEST, HIGHEST),
     "dynamics": _dynamics,
 }

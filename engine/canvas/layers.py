@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+from engine.canvas.heaps.heaps import NO_HEAPS, Heaps, branched
 from engine.canvas.node_checks import (
     LayerError,
     allowed,
@@ -44,6 +45,7 @@ class Layer:
     `pyramid`: the paint; `growth`: what was painted with examples, over it.  `role`: "" for a part of the picture, or
     one of the ROLES; `scale`, `sea`: of the heights that it is, None for the usual ones.  `wrap`: the cell of which
     the layer shows repeats without end, and on which strokes are laid as on a torus; None: it is shown as it is.
+    `heaps`: heights that brushes laid beside the paint.
     """
 
     id: int
@@ -61,6 +63,7 @@ class Layer:
     mask: Selection | None = None
     scale: float | None = None
     sea: float | None = None
+    heaps: Heaps = NO_HEAPS
 
     def __post_init__(self) -> None:
         check_common(self)
@@ -128,9 +131,6 @@ def isolation(group: Group) -> str:
     pass-through one, whatever its opacity and operator, so 'auto' may be written only where the group passes through.
     """
     return "auto" if passes_through(group) else "isolate"
-
-
-# --- looking ---------------------------------------------------------------------------------------------------------
 
 
 def walk(root: Group) -> Iterator[Node]:
@@ -246,8 +246,6 @@ def stacks(nodes: Sequence[Node]) -> list[tuple[Node, list[Node]]]:
     return out
 
 
-# --- changing --------------------------------------------------------------------------------------------------------
-
 Siblings = tuple[Node, ...]
 
 
@@ -321,6 +319,11 @@ def with_growth(root: Group, name: str, growth: Growth) -> Group:
     return _repainted(root, name, growth=growth)
 
 
+def with_heaps(root: Group, name: str, heaps: Heaps) -> Group:
+    """With what was heaped on a layer replaced."""
+    return _repainted(root, name, heaps=heaps)
+
+
 def _repainted(root: Group, name: str, **paint: Any) -> Group:
     """Only the path down to the layer is rebuilt."""
     trail, node = _locate(root, name)
@@ -371,7 +374,8 @@ def duplicate(root: Group, name: str, to: str) -> Group:
         number = ids[node.id]
         if isinstance(node, Layer):
             # Its own line of history from here on, so that caches keep both.
-            return replace(node, id=number, name=called, pyramid=node.pyramid.branched(), mask=_branched(node.mask))
+            own = replace(node, pyramid=node.pyramid.branched(), heaps=branched(node.heaps))
+            return replace(own, id=number, name=called, mask=_branched(node.mask))
         if isinstance(node, Placement):
             of = None if node.of is None else ids.get(node.of, node.of)
             return replace(node, id=number, name=called, of=of)

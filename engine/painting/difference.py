@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from engine.canvas import growth as growths
 from engine.canvas.growth import Growth
+from engine.canvas.heaps.heaps import NO_HEAP
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.through import Seen
@@ -53,7 +54,12 @@ class _Changed(NamedTuple):
     @classmethod
     def of(cls, old: Layer, new: Layer) -> _Changed:
         """Compares two states of one line of history."""
-        return cls(tuple(changes_between(old.pyramid.last, new.pyramid.last)), old.growth, new.growth)
+        changes = [*changes_between(old.pyramid.last, new.pyramid.last)]
+        if old.heaps is not new.heaps:
+            for unit in {*old.heaps, *new.heaps}:
+                before, after = (one.heaps.get(unit, NO_HEAP).last for one in (old, new))
+                changes += changes_between(before, after)
+        return cls(tuple(changes), old.growth, new.growth)
 
     def rects(self, level: int) -> list[Rect]:
         """Returns the rectangles of a level in which the states may differ."""
@@ -86,7 +92,9 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
         elif isinstance(a, Layer) and isinstance(b, Layer) and _plain(a) == _plain(b):
             if a.pyramid is not b.pyramid and a.pyramid.uid != b.pyramid.uid:
                 return None
-            if a.pyramid is not b.pyramid or a.growth is not b.growth:
+            if any(heap.uid != b.heaps[unit].uid for unit, heap in a.heaps.items() if unit in b.heaps):
+                return None
+            if a.pyramid is not b.pyramid or a.growth is not b.growth or a.heaps is not b.heaps:
                 out.append((a, b))
         elif not isinstance(a, Placement) or a != b:
             return None

@@ -12,13 +12,14 @@ from engine.brush import edits, relief, tip
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.footprint import Footprint
-from engine.brush.mask import StrokeMask
+from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.stamp import Edit
 from engine.brush.thinning import Thinning
 from engine.canvas import commit, layers
 from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
 from engine.canvas.growth import Growth
+from engine.canvas.heaps import heaping
 from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
 from engine.canvas.selecting.mask_sheet import repainted
@@ -27,6 +28,7 @@ from engine.numeric.prediction import Predictor
 from engine.painting.grown import threads
 from engine.painting.value import Painting
 from engine.strokes.bed import Bed, Meeting
+from engine.strokes.heap_stroke import NO_EDITS, Untouched, heap_plan
 from engine.strokes.live_stroke import Drawn
 from engine.strokes.mask_painting import edit_of, greys_of
 from engine.strokes.scenery import Scenery, reader
@@ -54,6 +56,7 @@ class LiveStroke(Drawn):
         self._relief = relief.resolve(brush, textures, level, (own, self.before.seed))
         self._thinning: Thinning = self._relief if self.limit is None else self.limit.after(self._relief)
         self._edit: Edit | None = None
+        self._plan, self._heap_edits = heap_plan(brush, self.layer), NO_EDITS
         self.flattened, self.bed = False, self._new_bed()
         self._meeting = Meeting(level, self.origin, brush.radius, None if self.limit is None else self.limit.meets)
 
@@ -141,11 +144,27 @@ class LiveStroke(Drawn):
     def edit(self) -> Edit:
         """Returns the edit of the layer that the points so far make."""
         if self._edit is None:
-            locked = self.layer.alpha_locked
-            scene = replace(self._scenery.scene, arithmetic=self.before.arithmetic)
-            made = edits.edit(self.brush, self._mask, self._ink, locked, self._read, self._thinning, scene)
-            self._edit = edit_of(made, self.layer)
+            plan, covered, thinning = self._plan, self._mask, self._thinning
+            if plan is not None:
+                whole = thinning.over(covered.coverage())
+                self._heap_edits = plan.edits(self.layer, self.brush, whole, self.cache)
+                self._edit = Untouched(self.level) if plan.only else self._painted(whole, None)
+            else:
+                self._edit = self._painted(covered, thinning)
         return self._edit
+
+    def _painted(self, covered: StrokeMask | Coverage, thinning: Thinning | None) -> Edit:
+        scene = replace(self._scenery.scene, arithmetic=self.before.arithmetic)
+        locked = self.layer.alpha_locked
+        made = edits.edit(self.brush, covered, self._ink, locked, self._read, thinning, scene)
+        return edit_of(made, self.layer)
+
+    @property
+    def heap_edits(self) -> heaping.Edits:
+        """Returns the edits of the layer's heaps that the points so far make."""
+        if self._plan is not None and self._edit is None:
+            _ = self.edit
+        return self._heap_edits
 
     def _read(self, rect: Rect) -> Planes:
         return greys_of(around(self.layer, self.level, rect, self.cache), self.layer)
@@ -162,6 +181,9 @@ class LiveStroke(Drawn):
         pyramid = commit.commit(self.layer.pyramid, self.edit, self.cache)
         if pyramid is not self.layer.pyramid:
             root = repainted(root, self.layer, pyramid)
+        heaps = heaping.heaped(self.layer.heaps, self.heap_edits, self.cache)
+        if heaps is not self.layer.heaps:
+            root = layers.with_heaps(root, name, heaps)
         if self.bed is not None and self.bed.growth is not self.layer.growth:
             root = layers.with_growth(root, name, self.bed.growth)
         return self.base if root is self.base.root else replace(self.base, root=root)

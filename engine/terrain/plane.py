@@ -9,8 +9,11 @@ With luma = .2126 R + .7152 G + .0722 B of the values as they are stored, not cl
 `scale`: pixels of level 0 from black to white; by default the layer's own, else a sixth of the frame's width.  `sea`:
 the brightness that lies at height 0; by default the layer's own, else 0.  `ground`: the brightness of what is not
 painted on; by default the median of the frame's rim, chosen when the land is made.  `source`: a layer's or group's
-name, "composite" (all that is in the picture) or "alpha" (how opaque that is); by default the layer of the role
+name, "composite" (all that is in the picture), "alpha" (how opaque that is) or "impasto" (how thick paint lies, alone,
+whatever the scale); by default the layer of the role
 "height" if there is one, else "composite".
+
+What brushes heaped on the source, in pixels, comes on top (`engine.canvas.heaps`).
 
 **Deep down** float64 ends, too.  Down to level 32 heights are told from the sea.  Beyond, they are told relative to one
 pixel, `about`: by default the one 32 levels up that the first tile of the window lies in, so that a tile's heights are
@@ -40,10 +43,11 @@ from engine.canvas.tile_cache import TileCache
 from engine.checks.roles import AS_HEIGHT
 from engine.numeric.address import TILE, Rect
 from engine.painting.value import Painting
+from engine.terrain.heaped_land import heaped_bound, heaped_heights
 from engine.terrain.land_bound import Remainder, layer_bound, nothing_lies
 from engine.terrain.layer_heights import Brightness, Pixel, Zero, layer_brightness, luma, zeros_of
 
-COMPOSITE, ALPHA = "composite", "alpha"
+COMPOSITE, ALPHA, IMPASTO = "composite", "alpha", "impasto"
 DEEP = 32  # levels below level 0, and below a pixel that heights are relative to, that float64 has room for
 _RIM = 256  # pixels of the longer side of the frame whose rim is looked at
 _THERE = 0.5  # alpha from which a pixel of it counts
@@ -67,6 +71,10 @@ class Land:
         pixels of level 0."""
         if about is None and level > DEEP:
             about = self.about(level, rect)
+        return self._bare(level, rect, about) + self._heaped(level, rect, about)
+
+    def _bare(self, level: int, rect: Rect, about: Pixel | None) -> np.ndarray:
+        """Returns the heights without what is heaped on them."""
         if about is None:
             return self._told(self._brightness(level, rect, None), self.sea)
         if not 0 < about.level <= level:
@@ -74,6 +82,23 @@ class Land:
         one = self._brightness(about.level, about.rect, about)
         taken = float((one.fine + (one.still + (1.0 - one.alpha) * self.ground))[0, 0])
         return self._told(self._brightness(level, rect, about), taken)
+
+    def _heaped(self, level: int, rect: Rect, about: Pixel | None) -> np.ndarray | float:
+        """Returns what brushes heaped on the source, or of "impasto" on all layers that show."""
+        steps = () if about is None else range(about.level, 0, -DEEP)
+        out: np.ndarray | float = 0.0
+        for layer, opacity in self._heaping():
+            out = out + heaped_heights(layer, level, rect, about, steps, self.cache) * opacity
+        return out
+
+    def _heaping(self) -> Iterable[tuple[Layer, float]]:
+        """Returns the layers on which it is heaped, each with its opacity."""
+        if self.source == IMPASTO:
+            return ((one, opacity) for one, opacity in _shown(layers.pictured(self.painting.root).children))
+        if self.source in (COMPOSITE, ALPHA):
+            return ()
+        node = layers.find(self.painting.root, self.source)
+        return ((node, 1.0),) if isinstance(node, Layer) else ()
 
     def about(self, level: int, rect: Rect) -> Pixel:
         """Returns the pixel that the heights of a window of a level beyond 32 are relative to, if nothing is said."""
@@ -85,6 +110,8 @@ class Land:
         return out
 
     def _brightness(self, level: int, rect: Rect, about: Pixel | None) -> Brightness:
+        if self.source == IMPASTO:
+            return Brightness(np.zeros((rect.height, rect.width)), 0.0, 1.0)
         if self.source in (COMPOSITE, ALPHA):
             root = layers.pictured(self.painting.root)
             seen = self._whole(root, level, rect, about)
@@ -136,6 +163,16 @@ class Land:
         """Returns how far the land in a rectangle may be from its heights at a level, in pixels of level 0: no finer
         level, expanded from there, differs by more.  None where nothing is known: where several layers lie over one
         another, where they are more than laid over one another, and where ink is renewed."""
+        heaped = Remainder(0.0, 0.0)
+        for layer, opacity in self._heaping():
+            more = heaped_bound(layer, level, rect, self.cache)
+            if more is None:
+                return None
+            heaped = Remainder(heaped.hard + opacity * more.hard, heaped.rms + opacity * more.rms)
+        return heaped if self.source == IMPASTO else self._bare_bound(level, rect, heaped)
+
+    def _bare_bound(self, level: int, rect: Rect, heaped: Remainder) -> Remainder | None:
+        """Returns the bound of what is not heaped, with that of what is."""
         told = self._only_layer(level, rect)
         if told is None:
             return None
@@ -147,7 +184,7 @@ class Land:
                 return None
             found = seen
         by = abs(self.scale) * opacity
-        return Remainder(found.hard * by, found.rms * by)
+        return Remainder(found.hard * by + heaped.hard, found.rms * by + heaped.rms)
 
     def _only_layer(self, level: int, rect: Rect) -> tuple[Layer | None, float, float] | None:
         """Returns the one layer that lies in a rectangle, its opacity, and the brightness of what it does not cover;
@@ -204,14 +241,14 @@ def land(
     `cache`: tiles of the canvas that are kept, which is faster where more than one window is looked at.
     """
     node = heights_of(painting) if source is None else None
-    if source not in (None, COMPOSITE, ALPHA):
+    if source not in (None, COMPOSITE, ALPHA, IMPASTO):
         node = layers.find(painting.root, source)
     told = node if isinstance(node, Layer) else None
     source = source or (COMPOSITE if node is None else node.name)
     scale = _first(scale, None if told is None else told.scale, painting.frame.width / _PART)
     sea = _first(sea, None if told is None else told.sea, 0.0)
     made = Land(painting, source, scale, sea, 0.0 if ground is None else ground, cache)
-    return made if source == ALPHA or ground is not None else replace(made, ground=made.rim())
+    return made if source in (ALPHA, IMPASTO) or ground is not None else replace(made, ground=made.rim())
 
 
 def heights_of(painting: Painting) -> Node | None:

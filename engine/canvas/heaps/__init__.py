@@ -1,0 +1,1 @@
+"""What brushes heap on a layer: heights beside its paint."""
