@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-HEAPS, CHANGES = "heaps", "changes"
+HEAPS_UP, CHANGES_HEAPS = "heaps", "changes"
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class Mode:
     `eraser`: the mode that the eraser, or the pen's other end, has with such a brush.
     `section`: what the brush panel shows for it alone, by name.  `unfelt`: members of the brush that do not count.
     `ground`: what small pictures of its strokes are painted on: "" for nothing, "bars" or "colours".
-    `heaps`: what it does to heights that lie beside the paint: HEAPS, CHANGES as it does the paint, or "" for nothing.
+    `heaps`: what it does to heights that lie beside the paint: HEAPS_UP, or CHANGES_HEAPS as it does the paint, or "".
     """
 
     name: str
@@ -57,7 +57,7 @@ MODES: dict[str, Mode] = {
             "engine.brush.paint_edit:Painting",
             lays_ink=True,
             in_lab=True,
-            heaps=HEAPS,
+            heaps=HEAPS_UP,
         ),
         Mode(
             "erase",
@@ -68,7 +68,7 @@ MODES: dict[str, Mode] = {
             in_lab=True,
             section="eraser",
             ground="bars",
-            heaps=CHANGES,
+            heaps=CHANGES_HEAPS,
         ),
         Mode(
             "smooth",
@@ -78,7 +78,7 @@ MODES: dict[str, Mode] = {
             in_lab=True,
             eraser="smooth",
             ground="bars",
-            heaps=CHANGES,
+            heaps=CHANGES_HEAPS,
         ),
         Mode(
             "raster",

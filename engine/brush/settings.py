@@ -25,7 +25,7 @@ LEVEL_LIMIT = 1 << 16  # of an example's pixels
 DEEPEST = 2.0**31  # of the layers of examples
 MOST_DETAIL = 4
 
-HIGHEST = 4000.0  # px of the stroke's level
+MOST_HEIGHT = 4000.0  # px of the stroke's level
 AUTO = "auto"
 
 Curve = str | Knots  # "pressure", or knots [in, out]
@@ -222,8 +222,8 @@ def _optional(read: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
     return lambda value, place: None if value is None else read(value, place)
 
 
-def _height(value: Any, place: str) -> Thickness:
-    return AUTO if value == AUTO else checks.number(value, place, -HIGHEST, HIGHEST)
+def _height(value: object, place: str) -> Thickness:
+    return AUTO if value == AUTO else checks.number(value, place, -MOST_HEIGHT, MOST_HEIGHT)
 
 
 def _dynamics(value: Any, place: str) -> Map[str, Any]:
@@ -259,6 +259,6 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "example_level": _optional(lambda value, place: checks.integer(value, place, -LEVEL_LIMIT, LEVEL_LIMIT)),
     "example_detail": lambda value, place: checks.integer(value, place, 0, MOST_DETAIL),
     "height": _optional(_height),
-    "impasto": lambda value, place: checks.number(value, place, -HIGHEST, HIGHEST),
+    "impasto": lambda value, place: checks.number(value, place, -MOST_HEIGHT, MOST_HEIGHT),
     "dynamics": _dynamics,
 }

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from engine.canvas.heaps.heaps import NO_HEAPS, Heaps, branched
+from engine.canvas.heaps.heaps import NO_HEAPS, Heaps, own_lines
 from engine.canvas.node_checks import (
     LayerError,
     allowed,
@@ -374,7 +374,7 @@ def duplicate(root: Group, name: str, to: str) -> Group:
         number = ids[node.id]
         if isinstance(node, Layer):
             # Its own line of history from here on, so that caches keep both.
-            own = replace(node, pyramid=node.pyramid.branched(), heaps=branched(node.heaps))
+            own = replace(node, pyramid=node.pyramid.branched(), heaps=own_lines(node.heaps))
             return replace(own, id=number, name=called, mask=_branched(node.mask))
         if isinstance(node, Placement):
             of = None if node.of is None else ids.get(node.of, node.of)

@@ -139,6 +139,7 @@ def version_of(command: Command) -> int:
     if isinstance(command, LayerCommand):
         return layer_version(command)
     newer = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto) or _lasts(command.brush))
+    newer |= isinstance(command, Stroke) and (command.brush.height is not None or command.brush.impasto != 0.0)
     newer |= isinstance(command, DefineTexture) and _newer(command.arguments)
     return 2 if region or newer or isinstance(command, _OF_VERSION_2) else 1
 

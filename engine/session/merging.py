@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from engine.canvas import layers
 from engine.canvas.flatten import flattened
+from engine.canvas.heaps.heaps import NO_HEAPS
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.cleared import framing, without
 from engine.canvas.merging.merged import merged_paint
@@ -103,10 +104,15 @@ def cleared(painting: Painting, name: str | None, outside: bool = False) -> Pain
 def _emptied(painting: Painting, layer: Layer, outside: bool) -> Layer:
     limit = framing(painting.frame) if outside else painting.selection
     if limit is None:
-        return replace(layer, pyramid=Pyramid(grid=painting.grid, commits=layer.pyramid.commits), growth=())
+        bare = Pyramid(grid=painting.grid, commits=layer.pyramid.commits)
+        return replace(layer, pyramid=bare, growth=(), heaps=NO_HEAPS)
     paint = flattened(layer).pyramid if layer.growth else layer.pyramid
-    left = without(paint, limit)
-    return layer if left is layer.pyramid else replace(layer, pyramid=left, growth=())
+    left, heaps = without(paint, limit), layer.heaps
+    for unit, heap in layer.heaps.items():
+        heaps = heaps.set(unit, without(heap, limit))
+    if left is layer.pyramid and not heaps:
+        return layer
+    return replace(layer, pyramid=left, growth=(), heaps=heaps)
 
 
 def _made(node: Node, paint: Pyramid, blend: str) -> Layer:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from engine.brush import edits
 from engine.brush.mask import Coverage
-from engine.brush.modes import HEAPS
+from engine.brush.modes import HEAPS_UP
 from engine.brush.settings import Brush
 from engine.brush.stamp import Stamp
 from engine.canvas.heaps import heaping
@@ -19,7 +19,7 @@ from engine.numeric.address import Rect, TileKey
 from engine.texture.planes import Planes
 
 NO_EDITS: heaping.Edits = {}
-_NOWHERE = Rect(0, 0, 0, 0)
+_EMPTY = Rect(0, 0, 0, 0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ def heap_plan(brush: Brush, layer: Layer) -> HeapPlan | None:
     if not does or isinstance(layer, MaskSheet):
         return None
     only = layer.role == AS_HEIGHT and brush.height is not None
-    if does == HEAPS:
+    if does == HEAPS_UP:
         laid = brush.heaps if only else None if layer.role == AS_HEIGHT else brush.impasto or None
         return None if laid is None else HeapPlan(laid, only)
     return HeapPlan(None, only) if only or layer.heaps else None
@@ -56,7 +56,7 @@ class Untouched:
 
     level: int
     tiles: Sequence[TileKey] = ()
-    rect: Rect = _NOWHERE
+    rect: Rect = _EMPTY
     spares_alpha: bool = False
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:

@@ -87,18 +87,9 @@ class Land:
         """Returns what brushes heaped on the source, or of "impasto" on all layers that show."""
         steps = () if about is None else range(about.level, 0, -DEEP)
         out: np.ndarray | float = 0.0
-        for layer, opacity in self._heaping():
+        for layer, opacity in _heaping(self.painting.root, self.source):
             out = out + heaped_heights(layer, level, rect, about, steps, self.cache) * opacity
         return out
-
-    def _heaping(self) -> Iterable[tuple[Layer, float]]:
-        """Returns the layers on which it is heaped, each with its opacity."""
-        if self.source == IMPASTO:
-            return ((one, opacity) for one, opacity in _shown(layers.pictured(self.painting.root).children))
-        if self.source in (COMPOSITE, ALPHA):
-            return ()
-        node = layers.find(self.painting.root, self.source)
-        return ((node, 1.0),) if isinstance(node, Layer) else ()
 
     def about(self, level: int, rect: Rect) -> Pixel:
         """Returns the pixel that the heights of a window of a level beyond 32 are relative to, if nothing is said."""
@@ -164,7 +155,7 @@ class Land:
         level, expanded from there, differs by more.  None where nothing is known: where several layers lie over one
         another, where they are more than laid over one another, and where ink is renewed."""
         heaped = Remainder(0.0, 0.0)
-        for layer, opacity in self._heaping():
+        for layer, opacity in _heaping(self.painting.root, self.source):
             more = heaped_bound(layer, level, rect, self.cache)
             if more is None:
                 return None
@@ -279,6 +270,16 @@ def _plain(nodes: Iterable[Node]) -> bool:
         elif not isinstance(node, Layer) or node.wrap is not None or node.mask is not None:
             return False
     return True
+
+
+def _heaping(root: Group, source: str) -> Iterable[tuple[Layer, float]]:
+    """Returns the layers on which the heights of a source are heaped, each with its opacity."""
+    if source == IMPASTO:
+        return _shown(layers.pictured(root).children)
+    if source in (COMPOSITE, ALPHA):
+        return ()
+    node = layers.find(root, source)
+    return ((node, 1.0),) if isinstance(node, Layer) else ()
 
 
 def _shown(nodes: Iterable[Node]) -> Iterator[tuple[Layer, float]]:

@@ -14,7 +14,7 @@ from engine.brush.covered import Covered, Read
 from engine.brush.stamp import Stamp
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import evaluate
-from engine.canvas.heaps.heaps import MOST_HEAPED, NO_HEAP, Heaps, exponent, of_scale, part
+from engine.canvas.heaps.heaps import MOST_HEAPED, NO_HEAP, Heaps, exponent, of_scale, share
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, TileKey
@@ -24,7 +24,7 @@ from engine.texture.planes import COLOURS, Planes
 _ALL = np.ones((TILE, TILE), np.float32)
 _ALPHA = 3
 
-Made = Callable[[Read], Covered]
+MadeEdit = Callable[[Read], Covered]
 Edits = Mapping[int, Covered]
 
 
@@ -51,7 +51,7 @@ class Heaping(Covered):
         return Stamp(_ALL, add)
 
 
-def edits_of(heaps: Heaps, level: int, laid: float | None, made: Made, cache: TileCache | None) -> Edits:
+def edits_of(heaps: Heaps, level: int, laid: float | None, made: MadeEdit, cache: TileCache | None) -> Edits:
     """Returns how a stroke changes heaps, by their exponents.
 
     `laid`: the height that it lays, in pixels of its level, None where it takes or smooths what lies there; `made`: the
@@ -63,7 +63,7 @@ def edits_of(heaps: Heaps, level: int, laid: float | None, made: Made, cache: Ti
         return {}
     unit = exponent(laid, level)
     edit = made(_reader(heaps.get(unit, NO_HEAP), level, cache))
-    return {unit: Heaping(edit.coverage, edit.brush, None, False, None, part=part(laid, level, unit))}
+    return {unit: Heaping(edit.coverage, edit.brush, None, False, None, part=share(laid, level, unit))}
 
 
 def _reader(heap: Pyramid, level: int, cache: TileCache | None) -> Read:

@@ -32,7 +32,7 @@ def exponent(height: float, level: int) -> int:
     return -(-octaves // _APART) * _APART
 
 
-def part(height: float, level: int, unit: int) -> float:
+def share(height: float, level: int, unit: int) -> float:
     """Returns a height, in pixels of a level, in units of 2^unit pixels of level 0."""
     return math.ldexp(height, -level - unit)
 
@@ -48,6 +48,6 @@ def lies(heap: Pyramid, level: int, rect: Rect) -> bool:
     return any(heap.has_records(k, rect.zoomed(k - level).grown(_AROUND)) for k in heap.levels if k <= level)
 
 
-def branched(heaps: Heaps) -> Heaps:
+def own_lines(heaps: Heaps) -> Heaps:
     """Returns the same heaps at the start of lines of history of their own."""
     return immutables.Map({unit: heap.branched() for unit, heap in heaps.items()})

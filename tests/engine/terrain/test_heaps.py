@@ -9,9 +9,11 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
-from engine.canvas.heaps.heaps import exponent, part
+from engine.canvas.heaps.heaps import exponent, share
+from engine.checks.field_error import FieldError
 from engine.numeric.address import Rect
 from engine.painting.commands import parse
+from engine.painting.recording import version_of
 from engine.painting.value import Painting
 from engine.session.apply import Around, apply
 from engine.session.session import Session
@@ -174,7 +176,7 @@ def test_undo_save_and_open_keep_the_bits(tmp_path):
 )
 def test_every_height_fits_its_heap_and_leaves_room(height, level):
     unit = exponent(height, level)
-    assert 2.0**-7 < abs(part(height, level, unit)) <= 0.25
+    assert 2.0**-7 < abs(share(height, level, unit)) <= 0.25
 
 
 def test_windows_of_level_40_fit_with_a_pixel_elsewhere(ground):
@@ -185,3 +187,35 @@ def test_windows_of_level_40_fit_with_a_pixel_elsewhere(ground):
     assert np.array_equal(
         land(painting, "Layer 1").height(40, Rect(*whole[:2], whole.x0 + 9, whole.y1), far), seen[:, :9]
     )
+
+
+def test_what_is_heaped_goes_with_its_layer(ground):
+    painting = apply(ground, parse(stroke(8)), Around())
+    x, y = at(8)
+    moved = apply(painting, parse({"do": "layer", "set": "Layer 1", "level": 8, "at": [64, 32]}), Around())
+    there = Rect(x - 20, y - 20, x + 20, y + 20)
+    beside = Rect(x + 44, y + 12, x + 84, y + 52)
+    assert np.allclose(laid(moved, _moved(ground), 8, beside), laid(painting, ground, 8, there), rtol=0, atol=1e-3)
+    cleared = apply(painting, parse({"do": "layer", "clear": "Layer 1"}), Around())
+    assert not layers.find(cleared.root, "Layer 1").heaps
+    rect = {"do": "select", "rect": [8, x - 3, y - 3, 6, 6]}
+    part = apply(apply(painting, parse(rect), Around()), parse({"do": "layer", "clear": "Layer 1"}), Around())
+    left = np.ldexp(land(part, "Layer 1", ground=0.0).height(8, there), 8)
+    bare = np.ldexp(land(painting, "Layer 1", ground=0.0).height(8, there), 8)
+    assert left[20, 20] < bare[20, 20] - 2.9
+    assert left[5, 20] == pytest.approx(bare[5, 20], abs=1e-3)
+
+
+def _moved(painting):
+    return apply(painting, parse({"do": "layer", "set": "Layer 1", "level": 8, "at": [64, 32]}), Around())
+
+
+@pytest.mark.parametrize(("name", "found"), [("height", 5000), ("height", "low"), ("impasto", None)])
+def test_a_height_that_cannot_be_is_refused(name, found):
+    with pytest.raises(FieldError, match=f"brush.{name}"):
+        parse(stroke(0, **{name: found}))
+
+
+def test_a_recording_that_heaps_is_one_of_version_2():
+    assert version_of(parse(stroke(0))) == version_of(parse(stroke(0, height=None, impasto=1))) == 2
+    assert version_of(parse(stroke(0, height=None, impasto=0))) == 1
