@@ -44,8 +44,17 @@ def _does(op: str) -> Callable[[Desk], None]:
 
 
 def _can_mask(desk: Desk) -> bool:
+    return chosen(desk) and desk.known.active is not None
+
+
+def _apply(desk: Desk) -> None:
+    """Takes off what the mask hides; what a placement shows becomes paint, and where that loses detail the artist does
+    that before."""
     row = desk.known.active
-    return chosen(desk) and row is not None and row.shows is None
+    if row is not None and row.shows is not None and row.shows.pose.similarity.quarter is None:
+        desk.say(f"“{row.name}” is turned or scaled by parts: make it independent before", True, offer="independent")
+    else:
+        _does(MASK_APPLY)(desk)
 
 
 def _can_mask_selected(desk: Desk) -> bool:
@@ -156,7 +165,7 @@ MASK_ACTIONS: dict[str, A] = {
         "Layer/Mask",
         (),
         "Take off the paint that it hides, then the mask",
-        _does(MASK_APPLY),
+        _apply,
         _can_apply,
     ),
     "unmask": A("Remove mask", "Layer/Mask", (), "Show all of the layer again", _unmask, is_masked),

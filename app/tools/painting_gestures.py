@@ -74,7 +74,8 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
     if desk.selecting.masking:
         return begin_on_mask(desk, first)
     layer = desk.known.active
-    aim = through(desk.known, layer, desk.view.shown_level) if layer is not None and layer.shows is not None else None
+    placed = layer is not None and layer.shows is not None and not desk.masks.on(layer)
+    aim = through(desk.known, layer, desk.view.shown_level) if layer is not None and placed else None
     if isinstance(aim, str):
         desk.say(aim, bad=True, offers=("source", "independent"))
         return None

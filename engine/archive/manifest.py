@@ -122,7 +122,7 @@ class Manifest:
     def painting(self, root: Group, textures: Map[str, Texture], chosen: Chosen = Chosen()) -> Painting:  # noqa: B008
         """Returns the painting of layers, textures and selections."""
         heaped = selection_files.with_heaps(replace(root, paper=self.paper), chosen.heaps)
-        root = selection_files.with_masks(heaped, chosen.masks)
+        root = selection_files.with_masks(heaped, chosen.masks, self.pictured)
         own = self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid
         return Painting(*own, chosen.selection, chosen.saved, guides=self.guides)
 

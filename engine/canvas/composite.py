@@ -120,8 +120,8 @@ def _tiles_of(sources: Sources, layers: Read, loop: Copies) -> Tiles[Leaf, Found
             return found(source, level, rect, seen)
 
     def found(source: Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
-        paint = source.sheet if isinstance(source, Mask) else source
-        if not isinstance(paint, Layer) or (paint, level, rect, seen) not in unpainted:
+        paint, there = (source.sheet, source.moved.through(seen)) if isinstance(source, Mask) else (source, seen)
+        if not isinstance(paint, Layer) or (paint, level, rect, there) not in unpainted:
             return _pixels(source, level, rect, layers, seen)
         return _pixels(source, level, rect, _nothing, seen) if isinstance(source, Mask) else None
 

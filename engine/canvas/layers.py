@@ -107,7 +107,7 @@ EMPTY = Group(0, "root")
 _SETTABLE = {
     Layer: ("opacity", "visible", "blend", "locked", "clip", "mask", "alpha_locked", "role", "wrap", "scale", "sea"),
     Group: ("opacity", "visible", "blend", "locked", "clip", "mask", "isolated"),
-    Placement: ("opacity", "visible", "blend", "locked", "clip", "of", "pose", "part", "repeat", "role"),
+    Placement: ("opacity", "visible", "blend", "locked", "clip", "mask", "of", "pose", "part", "repeat", "role"),
 }
 
 
@@ -378,7 +378,7 @@ def duplicate(root: Group, name: str, to: str) -> Group:
             return replace(own, id=number, name=called, mask=_branched(node.mask))
         if isinstance(node, Placement):
             of = None if node.of is None else ids.get(node.of, node.of)
-            return replace(node, id=number, name=called, of=of)
+            return replace(node, id=number, name=called, of=of, mask=_branched(node.mask))
         inside = tuple(copy(child, free(child.name)) for child in node.children)
         return replace(node, id=number, name=called, children=inside, mask=_branched(node.mask))
 

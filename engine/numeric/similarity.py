@@ -14,6 +14,7 @@ from engine.numeric.address import Rect
 
 _SLACK, _SLACK_BITS = 46341, 16  # 2^-1/2: a scale of 1 + 1e-17, from a rounded cos and sin, is no level finer
 _FRACTION, _PLACES = 40, 96  # bits of a logarithm behind the point, and of what it is worked out with
+_QUOTIENT = 256  # bits of a quotient that is not dyadic
 _QUARTERS = {(1, 0): 0, (0, 1): 1, (-1, 0): 2, (0, -1): 3}
 
 
@@ -178,6 +179,22 @@ class Similarity:
         x, y = divided(self.c.x), divided(-self.c.y)
         sign = -1 if self.mirror else 1
         return x, sign * y, -y, sign * x
+
+
+def since(before: Similarity, now: Similarity) -> Similarity:
+    """Returns the similarity from where `before` shows a place to where `now` does; its c rounded to so many bits
+    that no pixel tells, where it is not dyadic."""
+    below = before.c if now.mirror == before.mirror else before.c.conjugate
+    n, e = before.squared
+    c = now.c * below.conjugate
+    odd = n // (n & -n)
+    if not (c.x % odd or c.y % odd):
+        c = Dyadic.of(c.x // odd, c.y // odd, c.e - e + (n & -n).bit_length() - 1)
+    else:
+        c = Dyadic.of((c.x << _QUOTIENT) // n, (c.y << _QUOTIENT) // n, c.e - e + _QUOTIENT)
+    mirror = now.mirror != before.mirror
+    t = before.t.conjugate if mirror else before.t
+    return Similarity(c, now.t + -(c * t), mirror)
 
 
 def _dropped(number: Dyadic, bits: int) -> Dyadic:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -10,6 +11,7 @@ from engine.canvas import growth as growths
 from engine.canvas.growth import Growth
 from engine.canvas.heaps.heaps import NO_HEAP
 from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.placing import loops
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.through import Seen
 from engine.canvas.placing.views import Views, mapped
@@ -28,7 +30,7 @@ def areas(old: Painting, new: Painting) -> Areas:
     # Not the layers themselves: who asks for areas later does not want to hold the old painting until then.
     found = None if pairs is None else {b.id: _Changed.of(a, b) for a, b in pairs}
     views = Views(new.root)
-    anywhere = any(b.wrap is not None or (views.any and isinstance(b, MaskSheet)) for _, b in pairs or ())
+    anywhere = any(b.wrap is not None or (views.any and _mask_elsewhere(new.root, b)) for _, b in pairs or ())
 
     @cache  # it is asked for every tile on the screen
     def where(level: int) -> list[Rect] | None:
@@ -42,6 +44,10 @@ def areas(old: Painting, new: Painting) -> Areas:
         return own + [rect for changed, seen in changed_ways for rect in changed.seen(seen, level)]
 
     return where
+
+
+def _mask_elsewhere(root: Group, sheet: Layer) -> bool:
+    return isinstance(sheet, MaskSheet) and loops.seen_elsewhere(root, sheet.name)
 
 
 class _Changed(NamedTuple):
@@ -80,7 +86,7 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
         return None
     out: list[tuple[Layer, Layer]] = []
     for a, b in zip(old.children, new.children, strict=True):
-        if not isinstance(a, Placement) and not isinstance(b, Placement) and a.mask is not b.mask:
+        if a.mask is not b.mask:
             if not _one_line(a.mask, b.mask):
                 return None
             out.append((sheet_of(a), sheet_of(b)))
@@ -96,14 +102,14 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
                 return None
             if a.pyramid is not b.pyramid or a.growth is not b.growth or a.heaps is not b.heaps:
                 out.append((a, b))
-        elif not isinstance(a, Placement) or a != b:
+        elif not isinstance(a, Placement) or replace(a, mask=None) != replace(b, mask=None):
             return None
     return out
 
 
 def _one_line(old: Selection | None, new: Selection | None) -> bool:
     """Tells whether two masks are states of one, which was painted on."""
-    if old is None or new is None or (old.inverse, old.off) != (new.inverse, new.off):
+    if old is None or new is None or (old.inverse, old.off, old.pose) != (new.inverse, new.off, new.pose):
         return False
     return old.pyramid.uid == new.pyramid.uid
 

@@ -12,20 +12,20 @@ from typing import Any
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
-from engine.canvas.placing import baking, loops
+from engine.canvas.placing import loops
 from engine.canvas.placing.placement import Placement
+from engine.canvas.selecting.placed_mask import laid_again, reposed
 from engine.checks.field_error import FieldError
 from engine.checks.roles import AS_HEIGHT, COPIED
 from engine.makers.makers import define
 from engine.painting import commands as c
-from engine.painting.grown import settled_root
 from engine.painting.guiding.guides import GuideCommand, guides_after
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
 from engine.session.copied_part import lifted, pasted, with_copy, with_cut
 from engine.session.lifting.moved_part import part_moved
-from engine.session.masking import mask_for, with_mask_applied
+from engine.session.masking import made_paint, mask_for, with_mask_applied
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
 from engine.session.moving import elsewhere
 from engine.session.picturing import with_picture, with_pictures
@@ -109,10 +109,7 @@ def _bake(painting: Painting, command: c.BakePlacement, around: Around) -> Paint
         raise LayerError(f"layer {command.name!r}: found no placement, expected one to make paint of")
     if layers.is_locked(painting.root, command.name):
         raise LayerError(f"layer {command.name!r}: found it locked, expected one that is not")
-    settled = settled_root(painting.root)
-    paint = baking.paint_of(settled, node, painting.frame, painting.grid, command.level)
-    kept = node.opacity, node.visible, node.blend
-    layer = Layer(node.id, node.name, *kept, pyramid=paint, role=node.role, clip=node.clip)
+    layer = made_paint(painting, node, command.level)
     return _shown(replace(painting, root=layers.substitute(painting.root, node.name, layer)))
 
 
@@ -122,7 +119,8 @@ def _flatten(painting: Painting, command: c.FlattenGroup, around: Around) -> Pai
 
 def _placed(root: Group, node: Placement, placing: c.Placing) -> dict[str, Any]:
     """Returns the fields of a placement that are to change."""
-    out: dict[str, Any] = {"pose": placing.posed(node.pose), **placing.fields()}
+    shown = laid_again(reposed(node, placing.posed(node.pose)))
+    out: dict[str, Any] = {"pose": shown.pose, "mask": shown.mask, **placing.fields()}
     if not isinstance(placing.of, c.Same):
         out["of"] = None if placing.of is None else layers.find(root, placing.of).id
     return out
@@ -203,7 +201,8 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
         changes = {**changes, "blend": changes["blend"].removeprefix("svg:")}
     if command.mask is not None:
         painting = with_mask_applied(painting, command)
-        changes = {**changes, "mask": mask_for(painting, command)}
+        mask = mask_for(painting, command)
+        painting = replace(painting, root=layers.set_fields(painting.root, command.name, mask=mask))
     if command.placing is not None:
         node = layers.find(painting.root, command.name)
         if isinstance(node, Placement) and command.selected is None:

@@ -9,11 +9,14 @@ from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer
 from engine.canvas.merging.cleared import without
 from engine.canvas.node_checks import LayerError
+from engine.canvas.placing.baking import bake_levels, paint_of
 from engine.canvas.placing.placement import Placement
 from engine.canvas.selecting.mask_sheet import sheet_of
+from engine.canvas.selecting.placed_mask import mask_here
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
 from engine.painting import commands as c
+from engine.painting.grown import settled_root
 from engine.painting.layering.mask_member import MASK_APPLY, MASK_EMPTY, MASK_FULL, MASK_INVERT, MASK_OFF, MaskOp
 from engine.painting.value import Painting
 
@@ -21,8 +24,6 @@ from engine.painting.value import Painting
 def mask_for(painting: Painting, command: c.SetLayer) -> Selection | None:
     """Returns the value of the mask that a command sets; None where it takes it away.  LayerError if there is none."""
     name, wanted = command.name, command.mask
-    if isinstance(layers.find(painting.root, name), Placement):
-        raise LayerError(f"layer {name!r}: found a placement, expected a layer or group to mask, as what it shows")
     if isinstance(wanted, MaskOp):
         return _changed(painting, name, wanted.op)
     if wanted is False:
@@ -45,17 +46,28 @@ def with_mask_applied(painting: Painting, command: c.SetLayer) -> Painting:
         return painting
     node = layers.find(painting.root, command.name)
     sheet_of(node)
-    if not isinstance(node, Layer):
+    if isinstance(node, Group):
         raise LayerError(
             f"layer {node.name!r}: found a group, expected a layer of paint to take off what its mask hides"
         )
     if layers.is_locked(painting.root, node.name):
         raise LayerError(f"layer {node.name!r}: found it locked, expected one that is not")
+    if isinstance(node, Placement):
+        fitting = bake_levels(settled_root(painting.root), replace(node, mask=None), painting.frame)
+        node = made_paint(painting, node, None if fitting is None else fitting.level)
     assert node.mask is not None
     paint = flattened(node).pyramid if node.growth else node.pyramid
     left = without(paint, node.mask.inverted())
     made = node if left is node.pyramid else replace(node, pyramid=left, growth=())
     return replace(painting, root=layers.substitute(painting.root, node.name, made))
+
+
+def made_paint(painting: Painting, node: Placement, level: int | None = None) -> Layer:
+    """Returns a layer of what a placement shows, within the same mask; `level`: of its pixels, where it cannot be
+    exact."""
+    paint = paint_of(settled_root(painting.root), replace(node, mask=None), painting.frame, painting.grid, level)
+    kept = node.opacity, node.visible, node.blend
+    return Layer(node.id, node.name, *kept, pyramid=paint, role=node.role, clip=node.clip, mask=mask_here(node))
 
 
 def _own(selection: Selection) -> Selection:
@@ -67,7 +79,6 @@ def _changed(painting: Painting, name: str, op: str) -> Selection | None:
     if op in (MASK_FULL, MASK_EMPTY):
         return Selection(Pyramid(grid=painting.grid), inverse=op == MASK_FULL)
     node = layers.find(painting.root, name)
-    assert isinstance(node, Layer | Group)
     sheet_of(node)
     assert node.mask is not None
     if op == MASK_INVERT:

@@ -12,6 +12,7 @@ from engine.canvas.placing import loops
 from engine.canvas.placing.bake import TooFine, baked
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED, Pose
+from engine.canvas.selecting.placed_mask import reposed
 from engine.numeric.similarity import Similarity
 from engine.painting.layering.placing_members import Placing, Same
 from engine.painting.value import Painting
@@ -54,7 +55,7 @@ def tried(painting: Painting, name: str, placing: Placing, copy: bool = False) -
     if copy:
         root = _shown_besides(painting.root, node, placing)
     elif isinstance(node, Placement):
-        root = layers.substitute(painting.root, name, replace(node, pose=placing.posed(node.pose)))
+        root = layers.substitute(painting.root, name, reposed(node, placing.posed(node.pose)))
     else:
         root = shown_from_beside(painting.root, node, placing.posed(UNMOVED))
     return replace(painting, root=loops.checked(root))
@@ -64,7 +65,7 @@ def _shown_besides(root: Group, node: Node, placing: Placing) -> Group:
     """Returns the tree with a placement of a node, or of what that shows, right above it."""
     number, name = layers.next_id(root), layers.free_name(root, f"{node.name} copy")
     if isinstance(node, Placement):
-        shown = replace(node, id=number, name=name, pose=placing.posed(node.pose))
+        shown = replace(reposed(node, placing.posed(node.pose)), id=number, name=name)
     else:
         pose = placing.posed(UNMOVED)
         shown = Placement(

@@ -14,8 +14,8 @@ from engine.canvas.flatten import flattened
 from engine.canvas.layers import Layer
 from engine.canvas.selecting import outlines
 from engine.canvas.selecting.joining import alpha_of, joined_with, joined_with_another, with_more
-from engine.canvas.selecting.mask_sheet import mask_of
 from engine.canvas.selecting.occupied import alpha_at
+from engine.canvas.selecting.placed_mask import mask_here
 from engine.canvas.selecting.rims import rim_moved
 from engine.canvas.selecting.selection import EVERYTHING, Selection
 from engine.canvas.store import Pyramid
@@ -81,7 +81,7 @@ def _changed(painting: Painting, selection: Selection, command: Select) -> Selec
 
 def _named(painting: Painting, source: Named | MaskOf) -> Selection:
     if isinstance(source, MaskOf):
-        mask = mask_of(layers.find(painting.root, source.name))
+        mask = mask_here(layers.find(painting.root, source.name))
         if mask is None:
             raise Refusal(f"select: found no mask of {source.name!r}, expected a layer or group that has one")
         return Selection(mask.pyramid.branched(), mask.inverse)

@@ -30,7 +30,12 @@ def sheet_for(painting: Painting, name: str | None, onto: str, what: str = "stro
         raise Refusal(f"{what}: found no layer, expected one with a mask")
     if layers.is_locked(painting.root, wanted):
         raise Refusal(f"{what}: found layer {wanted!r} locked, expected one that is not")
-    return painting, sheet_of(layers.find(painting.root, wanted))
+    node = layers.find(painting.root, wanted)
+    sheet = sheet_of(node)
+    if node.mask is not None and node.mask.pose is not None:
+        turned = "found its mask turned or scaled with it, expected one that was made since"
+        raise Refusal(f"{what}: layer {wanted!r}: {turned}: select what it shows, and mask that")
+    return painting, sheet
 
 
 def insist_on_paint(sheet: Layer, what: str) -> None:

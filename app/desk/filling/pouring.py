@@ -22,7 +22,7 @@ def may_fill(desk: Desk) -> bool:
     if layer is not None and layer.locked:
         desk.say(f"Layer “{layer.name}” is locked", bad=True)
         return False
-    if layer is not None and layer.shows is not None:
+    if layer is not None and layer.shows is not None and not desk.masks.on(layer):
         desk.say(f"“{layer.name}” shows “{layer.shows.name or 'the painting'}”: fill that", bad=True)
         return False
     if desk.known.hiding:

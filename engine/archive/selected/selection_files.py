@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
@@ -15,14 +15,14 @@ from engine.canvas import layers
 from engine.canvas.attenuate import fold
 from engine.canvas.heaps.heaps import NO_HEAPS, Heaps
 from engine.canvas.layers import Group, Layer
-from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import Pose
 from engine.canvas.selecting.selection import NONE_SAVED, Saved, Selection
 from engine.canvas.store import Pyramid, Record
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields, is_name
 from engine.numeric.address import TileKey
 from engine.numeric.arithmetic import FINE
-from engine.painting.layering.placing_members import Members
+from engine.painting.layering.placing_members import Members, Placing, Same, read_placing, write_placing
 from engine.painting.value import Painting
 
 Packs = list[Any]  # of `manifest.Pack`s
@@ -33,7 +33,7 @@ MOST_UNIT = 1 << 17  # of a heap's exponents
 @dataclass(frozen=True)
 class SelectionEntry:
     """A selection kept under a name; None: what is selected; `masks`: it is the mask of the node of that id instead,
-    `off` if it is put aside; `heaps`: it is a heap of the layer of that id, in `unit`s.
+    `off` if it is put aside, made when that was at a `pose`; `heaps`: it is a heap of the layer of that id, in `unit`s.
     `packs`: where its tiles are."""
 
     name: str | None
@@ -42,6 +42,7 @@ class SelectionEntry:
     commits: int = 0
     masks: int | None = None
     off: bool = False
+    pose: Pose | None = None
     heaps: int | None = None
     unit: int = 0
 
@@ -72,7 +73,9 @@ def entries_of(
     entries, jobs = list[SelectionEntry](), list[J]()
     for number, (name, masks, selection) in enumerate(named):
         pyramid = fold(selection.pyramid)
-        entries.append(SelectionEntry(name, selection.inverse, [], pyramid.commits, masks, selection.off))
+        entries.append(
+            SelectionEntry(name, selection.inverse, [], pyramid.commits, masks, selection.off, selection.pose)
+        )
         tiles = ordered(list(pyramid.all_records()))
         jobs += packed(f"inkfall/selections/{number}", tiles, entries[-1].packs)
     for layer in layers.layers(painting.root):
@@ -111,6 +114,7 @@ def selections_told(entries: Sequence[SelectionEntry], packs: Callable[..., Pack
                 **({"masks": entry.masks} if entry.masks is not None else {}),
                 "inverse": entry.inverse,
                 **({"off": True} if entry.off else {}),
+                **({} if entry.pose is None else {"pose": write_placing(Placing.at_pose(entry.pose))}),
                 "commits": entry.commits,
                 "packs": [packs(pack) for pack in entry.packs],
             }
@@ -152,12 +156,20 @@ def _read_selections(value: object, packs: Callable[[Fields], Sequence[object]])
             raise members.fault("name", "a text that no other has")
         names.add((name, masks))
         commits = members.integer("commits", lo=0, hi=1 << 62)
+        pose = _pose(members) if masks is not None and "pose" in members else None
         out.append(
             SelectionEntry(
-                name, members.flag("inverse"), list(packs(members)), commits, masks, members.flag("off", False)
+                name, members.flag("inverse"), list(packs(members)), commits, masks, members.flag("off", False), pose
             )
         )
     return tuple(out)
+
+
+def _pose(members: Fields) -> Pose:
+    placing = read_placing(Fields(members.take("pose"), members.at("pose")))
+    if placing.of is not Same.SAME or placing.fields():
+        raise members.fault("pose", "where a placement was, and nothing of what it showed")
+    return placing.posed(Pose())
 
 
 def with_tiles_of(
@@ -178,7 +190,7 @@ def with_tiles_of(
         if entry.heaps is not None:
             heaps[entry.heaps] = heaps.get(entry.heaps, NO_HEAPS).set(entry.unit, pyramid)
         elif entry.masks is not None:
-            masks[entry.masks] = Selection(pyramid, entry.inverse, entry.off)
+            masks[entry.masks] = Selection(pyramid, entry.inverse, entry.off, entry.pose)
         elif entry.name is None:
             chosen = Selection(pyramid, entry.inverse)
         else:
@@ -189,14 +201,15 @@ def with_tiles_of(
 def masks_of(root: Group) -> Iterator[tuple[int, Selection]]:
     """Yields the masks of a tree, with the ids of the nodes that have them."""
     for node in layers.walk(root):
-        if not isinstance(node, Placement) and node.mask is not None:
+        if node.mask is not None:
             yield node.id, node.mask
 
 
-def with_masks(root: Group, masks: Mapping[int, Selection]) -> Group:
-    """Returns the tree with masks on the nodes of some ids."""
+def with_masks(root: Group, masks: Mapping[int, Selection], pictured: Container[int] = ()) -> Group:
+    """Returns the tree with masks on the nodes of some ids, but not on those whose paint is their picture: that is
+    what the mask left."""
     for node in list(layers.walk(root)) if masks else []:
-        if node.id in masks and not isinstance(node, Placement):
+        if node.id in masks and node.id not in pictured:
             root = layers.set_fields(root, node.name, mask=masks[node.id])
     return root
 

@@ -26,6 +26,7 @@ from engine.canvas.placing.filled import TilePlace
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.through import UNPLACED, Seen
 from engine.canvas.reading import layer_planes
+from engine.canvas.selecting.layer_mask import moved_of
 from engine.canvas.store import Pyramid, Record, level_of
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
@@ -199,8 +200,8 @@ def _ways(root: Group, nodes: tuple[Node, ...]) -> list[tuple[Layer, Seen]]:
     """Returns the layers that are seen in some nodes, and how."""
     found: list[tuple[Layer, Seen]] = []
     for node in nodes:
-        if not isinstance(node, Placement) and node.mask is not None:
-            found.append((Layer(node.id, node.name, pyramid=node.mask.pyramid), UNPLACED))
+        if node.mask is not None:
+            found.append((Layer(node.id, node.name, pyramid=node.mask.pyramid), moved_of(node)))
         if isinstance(node, Group):
             found += _ways(root, node.children)
         elif isinstance(node, Placement):

@@ -15,7 +15,7 @@ from engine.canvas.commit import commit
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.flatten import flattened
-from engine.canvas.layers import Group, Layer
+from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.laying import laid_at
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.bake import Pasted, baked, tiles_of
@@ -71,13 +71,16 @@ def _one_layer(root: Group, node: Placement) -> tuple[Layer | None, Seen]:
         gone.add(node.id)
         seen, source = seen.of(node), nodes[root.id if node.of is None else node.of]
         if not isinstance(source, Placement):
-            return (
-                (source, seen)
-                if isinstance(source, Layer) and (source.mask is None or source.mask.off)
-                else (None, seen)
-            )
+            return (source if isinstance(source, Layer) and _unmasked(source) else None), seen
+        if not _unmasked(source):
+            break
         node = source
     return None, seen
+
+
+def _unmasked(node: Node) -> bool:
+    """Tells whether nothing of a node is hidden by a mask of its own."""
+    return node.mask is None or node.mask.off
 
 
 @dataclass(frozen=True, eq=False)

@@ -110,6 +110,8 @@ class Sources:
         if isinstance(step.source, Placed):
             placement, _ = self.end(step.source.placement)
             return placement.pose.similarity.quarter is None or self.turns(placement.of)
+        if isinstance(step.source, Mask):
+            return step.source.moved.similarity.quarter is None
         return isinstance(step.source, tuple) and any(map(self._turned, step.source))
 
     def loop(self, of: Shown) -> Copies | None:
@@ -293,7 +295,7 @@ def masked(plan: tuple[CompositeStep, ...], node: Node) -> tuple[CompositeStep, 
 def _source(node: Node, sources: Sources) -> Layer | Placed | tuple[CompositeStep, ...]:
     if isinstance(node, Group):
         return masked(steps(node, sources), node)
-    if isinstance(node, Layer) and node.mask is not None:
+    if node.mask is not None:
         return masked((sources.step(node),), node)
     return sources.source(node)
 

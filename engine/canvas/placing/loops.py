@@ -39,6 +39,12 @@ def showing(root: Group, name: str) -> list[Placement]:
     return [one for one in placements(root) if one.of in within and one.id not in within]
 
 
+def seen_elsewhere(root: Group, name: str) -> bool:
+    """Tells whether a placement shows a node, something within it, or a group that holds it."""
+    held = {None, root.id, *(group.id for group in layers.ancestors(root, name))}
+    return bool(showing(root, name)) or any(one.of in held for one in placements(root))
+
+
 def holds_itself(one: Placement, shown_in: Callable[[int | None], Iterable[Placement]]) -> bool:
     """Tells whether a placement is shown in what it shows; `shown_in`: the placements in the source of a number."""
     todo, known = [one.of], {one.of}

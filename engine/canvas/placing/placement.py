@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from engine.canvas.node_checks import check_common, check_flags, check_role, insist
 from engine.canvas.placing.pose import FARTHEST, FINEST, UNMOVED, Pose, SourcePart
+from engine.canvas.selecting.selection import Selection
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +18,7 @@ class Placement:
 
     `of`: the id of the layer, group or placement that is shown, as if it were visible, opaque and normal; None: the
     whole painting.  `pose`: where.  `part`: what of it, in its own places (None: all).  `repeat`: the part is a cell,
-    repeated without end.  The rest as of a `Layer`.
+    repeated without end.  `mask`: of what is seen, in the places where it is seen.  The rest as of a `Layer`.
     """
 
     id: int
@@ -32,6 +33,7 @@ class Placement:
     repeat: bool = False
     role: str = ""
     clip: bool = False
+    mask: Selection | None = None
 
     def __post_init__(self) -> None:
         check_common(self)

@@ -44,11 +44,12 @@ def _ending(ways: Mapping[int, Sequence[int]], back: Mapping[int, Iterable[int]]
 
 
 def composed(outer: Placement, inner: Node) -> bool:
-    """Tells whether two placements in one another, which do not show themselves, are drawn as one: both exact, and
-    neither repeated."""
+    """Tells whether two placements in one another, which do not show themselves, are drawn as one: both exact, neither
+    repeated, and the inner one without a mask."""
     return (
         isinstance(inner, Placement)
         and not (outer.repeat or inner.repeat)
+        and (inner.mask is None or inner.mask.off)
         and outer.pose.similarity.quarter is not None
         and inner.pose.similarity.quarter is not None
     )

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
-from engine.canvas.placing.placement import Placement
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
 
@@ -20,8 +19,8 @@ class MaskSheet(Layer):
 
 
 def mask_of(node: Node) -> Selection | None:
-    """Returns the mask of a layer or group; a placement has none."""
-    return None if isinstance(node, Placement) else node.mask
+    """Returns the mask of a node, if it has one."""
+    return node.mask
 
 
 def sheet_of(node: Node) -> MaskSheet:

@@ -8,6 +8,7 @@ import numpy as np
 from immutables import Map
 
 from engine.canvas.evaluate import evaluate_sparse
+from engine.canvas.placing.pose import Pose
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
@@ -19,11 +20,13 @@ _ONE = np.float32(1.0)
 @dataclass(frozen=True, eq=False, slots=True)
 class Selection:
     """`pyramid`: its alpha is how far a place is selected; `inverse`: how far it is not.  Its colour is black.
-    `off`: as the mask of a layer it is put aside, and hides nothing."""
+    `off`: as the mask of a layer it is put aside, and hides nothing.  `pose`: where the placement was whose mask it is
+    when it was made, and it goes along with that from there; None: it lies where it is seen."""
 
     pyramid: Pyramid
     inverse: bool = False
     off: bool = False
+    pose: Pose | None = None
 
     @property
     def everything(self) -> bool:

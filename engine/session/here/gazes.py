@@ -148,10 +148,11 @@ class Sightline:
         """Yields those of a node; returns its alpha."""
         if weight < LEAST_SHARE:
             return 0.0
-        if isinstance(node, Placement):
-            return (yield from self._placed(node, gaze, seen, weight, depth))
         mask = Mask.of(node)
         shown = 1.0 if mask is None else _mean(mask.planes(self._read, gaze.level, gaze.rect, seen), gaze)
+        if isinstance(node, Placement):
+            alpha = yield from self._placed(node, gaze, seen, weight * shown, depth)
+            return alpha * shown
         if isinstance(node, Group):
             alpha = yield from self._nodes(node.children, gaze, seen, weight * shown, depth)
             return alpha * shown

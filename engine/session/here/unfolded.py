@@ -11,6 +11,7 @@ from engine.brush.copies import Torus
 from engine.canvas.layers import Group, Layer, Node, stacks, walk
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.through import seen_first
+from engine.canvas.selecting.placed_mask import mask_here
 from engine.canvas.selecting.selection import Selection
 from engine.numeric.address import Rect
 from engine.painting import commands as c
@@ -190,7 +191,13 @@ class Unfolding:
         """Lists what a node shows."""
         covers = node.blend == PLAIN_BLEND
         if isinstance(node, Placement):
-            yield from self._placed(node, opacity, tree, ply, depth)
+            mask = mask_here(node)
+            if mask is None or mask.off:
+                yield from self._placed(node, opacity, tree, ply, depth)
+                return
+            around = Ply(ply.gaze, ply, Veil(opacity, (mask,)), covers=covers, silent=ply.silent)
+            shown = replace(node, blend=PLAIN_BLEND)
+            yield from self._within(around, lambda: self._placed(shown, 1.0, tree, around, depth))
             return
         veil = Veil(opacity, () if node.mask is None or node.mask.off else (node.mask,))
         inner = Ply(ply.gaze, ply, veil, covers=covers, silent=ply.silent)

@@ -54,12 +54,19 @@ def layer_moved(layer: Layer, by: Similarity) -> Layer:
 
 def _moved_placement(node: Placement, by: Similarity, own: bool) -> Placement:
     """Returns a placement as it is seen by a similarity; `own`: its source is moved as well."""
+    mask = None if node.mask is None else replace(node.mask, pyramid=baked(node.mask.pyramid, by))
+    if mask is not None and mask.pose is not None:
+        mask = replace(mask, pose=_posed(mask.pose, by, own))
+    pose = _posed(node.pose, by, own)
     if not own:
-        return replace(node, pose=node.pose.followed(by))
-    seen = by.inverse().then(node.pose.similarity).then(by)
+        return replace(node, pose=pose, mask=mask)
     part, levels = node.part, (by.quarter or (0, 0))[0]
     if part is not None:
         at = part.level - levels
         at = at if by.aligned_from is None else max(at, by.aligned_from)
         part = SourcePart(at, by.shown(part.rect, part.level, at))
-    return replace(node, pose=Pose.of(seen), part=part)
+    return replace(node, pose=pose, part=part, mask=mask)
+
+
+def _posed(pose: Pose, by: Similarity, own: bool) -> Pose:
+    return Pose.of(by.inverse().then(pose.similarity).then(by)) if own else pose.followed(by)

@@ -8,7 +8,9 @@ import numpy as np
 
 from engine.canvas.composite import Read
 from engine.canvas.layers import Group, walk
-from engine.canvas.selecting.mask_sheet import mask_of, sheet_of
+from engine.canvas.placing.through import UNPLACED
+from engine.canvas.selecting.layer_mask import Mask
+from engine.canvas.selecting.mask_sheet import mask_of
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.painting.difference import Areas
@@ -41,8 +43,7 @@ class MaskAlone(Owned):
         node = next((node for node in walk(root) if node.name == self._name), None)
         if node is None or mask_of(node) is None:
             return None
-        sheet = sheet_of(node)
-        return greys(read(sheet, level, whole), sheet.inverse, whole)
+        return greys(Mask.told(node).planes(read, level, whole, UNPLACED), whole)
 
     def _show(self, request: ShowMask) -> None:
         if request.name != self._name:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from engine.canvas import layers
 from engine.canvas.layers import Node
+from engine.canvas.placing.through import UNPLACED
 from engine.canvas.reading import layer_planes
-from engine.canvas.selecting.mask_sheet import mask_of, sheet_of
+from engine.canvas.selecting.layer_mask import Mask
+from engine.canvas.selecting.mask_sheet import mask_of
 from engine.canvas.selecting.selection import Selection
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
@@ -51,7 +55,8 @@ class MaskPictures(Owned):
         while max(frame.zoomed(level).width, frame.zoomed(level).height) > SIDE:
             level -= 1
         area = frame.zoomed(level)
-        shown = greys(layer_planes(sheet_of(node), level, area, self._easel.session.cache), mask.inverse, area)
+        read = partial(layer_planes, cache=self._easel.session.cache)
+        shown = greys(Mask.told(node).planes(read, level, area, UNPLACED), area)
         pixels = np.full((area.height, area.width, 4), 255, np.uint8)
         pixels[..., :3] = np.rint(np.clip(shown[0], 0, 1) * 255)[..., None]
         self._easel.send(results.Picture(picture_name(node.name), results.frozen(pixels)))

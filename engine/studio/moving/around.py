@@ -17,9 +17,7 @@ def stacks_around(root: Group, name: str) -> Stacks | None:
     the tree does, wherever the node lies; None where they do not, or the node is not seen.  LayerError if there is no
     such node."""
     node, around = layers.find(root, name), layers.ancestors(root, name)
-    held = {None, root.id, *(group.id for group in around)}
-    shown = loops.showing(root, name) or any(one.of in held for one in loops.placements(root))
-    if shown or not _seen(node) or not all(map(_passes, around)):
+    if loops.seen_elsewhere(root, name) or not _seen(node) or not all(map(_passes, around)):
         return None
     below: list[Node] = []
     above: list[Node] = []

@@ -7,9 +7,11 @@ from functools import cache
 import numpy as np
 
 from engine.canvas.layers import Layer
+from engine.canvas.placing import loops
 from engine.canvas.placing.cells import Repeats, SeenAreas
 from engine.canvas.placing.views import Views
 from engine.canvas.reading import layer_planes
+from engine.canvas.selecting.mask_sheet import MaskSheet
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.pyramid import reduce
@@ -28,6 +30,9 @@ def areas_of(live: Live | None, level: int, parts: list[Rect]) -> SeenAreas:
             return lambda n: None
         cell = live.layer.wrap.rect.zoomed(level - live.layer.wrap.level)
         return lambda n: [Repeats(part, cell) for part in parts] if n == level else []
+    if live is not None and isinstance(live.layer, MaskSheet):
+        elsewhere = loops.seen_elsewhere(live.root, live.layer.name)
+        return lambda n: None if elsewhere else parts if n == level else []
     if live is None or views is None or not views.any:
         return lambda n: parts if n == level else []
     layer = live.layer.id

@@ -45,6 +45,12 @@ def round_about(pose=HALF, more=()):
     return replace(EMPTY, children=(whole, Group(60, "B", children=(b, itself(61, 50, pose), *more), opacity=0.6)))
 
 
+def behind_its_own(pose=HALF, inverse=False):
+    """A layer that a copy of all lies over, and shows through a mask on the copy: all but a corner, or just that."""
+    a, b = painted()
+    return replace(EMPTY, children=(a, itself(90, pose=pose, mask=Selection(b.pyramid, not inverse))))
+
+
 TREES = {
     "in a group": grouped,
     "in a thin group": lambda pose: grouped(pose, opacity=0.7),
@@ -53,6 +59,8 @@ TREES = {
     ),
     "behind a mask": masked,
     "within a mask": lambda pose: masked(pose, inverse=True),
+    "behind a mask of its own": behind_its_own,
+    "within a mask of its own": lambda pose: behind_its_own(pose, inverse=True),
     "round about": round_about,
     "round about twice": lambda pose: round_about(pose, (itself(62, 50, Pose(at=(60, 50), levels=-2, turn=1)),)),
     "beside a copy": lambda pose: replace(round_about(pose), children=(*round_about(pose).children, itself(70, 50))),
@@ -65,7 +73,7 @@ def at_once(root, level, rect):
 
     def plain(node):
         if isinstance(node, Placement):
-            return Layer(node.id, node.name, opacity=node.opacity)
+            return Layer(node.id, node.name, opacity=node.opacity, mask=node.mask)
         return replace(node, children=tuple(map(plain, node.children))) if isinstance(node, Group) else node
 
     def read(layer, level, rect):
@@ -105,6 +113,25 @@ def test_a_turn_is_what_lies_farther_out(name, pose, level, by):
     found = picture(root, level, rect)
     assert found.any()
     np.testing.assert_allclose(found, at_once(root, level, rect), atol=4e-3)
+
+
+@settings(deadline=None, max_examples=4)
+@given(
+    st.sampled_from(["half", "quarter", "mirrored"]),
+    st.sampled_from([4, 40, 1000]),
+    st.integers(1, 3),
+    st.tuples(st.integers(-60, 60), st.integers(-60, 60)),
+)
+def test_turns_deeper_a_copy_behind_a_mask_is_the_same_to_the_bit(name, level, turns, by):
+    pose = POSES[name]
+    root, (x, y) = behind_its_own(pose), fixed(pose, level)
+    there = Rect.at(x + by[0] - 25, y + by[1] - 20, 50, 40)
+    seen = picture(root, level, there)
+    assert seen.any()
+    for _ in range(turns):
+        there = pose.similarity.shown(there, level, level - pose.levels)
+        level, seen = level - pose.levels, as_seen(seen, pose)
+    np.testing.assert_array_equal(picture(root, level, there), seen)
 
 
 @settings(deadline=None, max_examples=6)

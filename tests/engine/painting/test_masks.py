@@ -195,7 +195,6 @@ def test_merged_it_is_part_of_the_paint():
     [
         ([], MASKED, "nothing selected"),
         ([], {**MASKED, "mask": "moon"}, "'moon'"),
-        ([OVAL, {"do": "layer", "add": "p", "kind": "placement", "of": "sky"}], {**MASKED, "set": "p"}, "placement"),
     ],
 )
 def test_what_cannot_be_is_refused_in_a_line(before, command, wrong):
