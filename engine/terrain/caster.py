@@ -12,10 +12,10 @@ import math
 
 import numpy as np
 
-from engine.numeric.kernel import inlined, inner, kernel
+from engine.numeric.kernel import inlined, inner_uncounted, kernel
 
 _PAST = 1e-6  # cells by which a ray goes on past the rim of a cell
-_CELLS_PER_PIXEL = 1.5  # beyond so many pixels of a window to one of the picture, the next coarser one is seen
+CELLS_PER_PIXEL = 1.5  # beyond so many pixels of a window to one of the picture, the next coarser one is seen
 MISSED = -1.0
 
 
@@ -68,7 +68,7 @@ def _in_patch(a: float, b: float, c: float, length: float) -> float:
     return s if s <= length + _PAST else -1.0
 
 
-@inner
+@inner_uncounted
 def _first_hit(
     h: np.ndarray,
     tops: np.ndarray,
@@ -81,11 +81,12 @@ def _first_hit(
     dz: float,
     t: float,
     end: float,
+    k: int,
 ) -> float:
-    """Where in t..end a ray first meets a window, all in its cells; MISSED if it does not."""
+    """Where in t..end a ray first meets a window, all in its cells; MISSED if it does not.  `k`: the level of the
+    mipmap with which it begins, low where land is near."""
     offsets, sides = mips[0], mips[1]
-    n = sides[0]
-    top = k = len(sides) - 1
+    n, top = sides[0], len(sides) - 1
     right, down = (1 if dx >= 0.0 else 0), (1 if dy >= 0.0 else 0)
     ix, iy = (1.0 / dx if dx != 0.0 else 1e30), (1.0 / dy if dy != 0.0 else 1e30)
     while t < end:
@@ -97,26 +98,25 @@ def _first_hit(
         i, j = int(x) >> k, int(y) >> k
         tx, ty = (((i + right) << k) - ox) * ix, (((j + down) << k) - oy) * iy
         out = max(t, min(min(tx, ty), end))
-        most = tops[offsets[k] + j * sides[k] + i]
-        if min(z, oz + out * dz) > most:
-            t = out + _PAST
-            if k < top and ((tx <= ty and (i & 1) == right) or (ty <= tx and (j & 1) == down)):
-                k += 1
-            continue
+        low = min(z, oz + out * dz)
         if k > 0:
-            if z > most:
-                t = max(t, min(out, t + (z - most) / -dz) - _PAST)
-            k -= 1
-            continue
-        here = h[j, i]
-        across, along = h[j, i + 1] - here, h[j + 1, i] - here
-        twist = h[j + 1, i + 1] - h[j, i + 1] - along
-        u, v = x - i, y - j
-        above = z - (here + across * u + along * v + twist * u * v)
-        slope = dz - (across * dx + along * dy + twist * (u * dy + v * dx))
-        s = 0.0 if above <= 0.0 else _in_patch(-twist * dx * dy, slope, above, out - t)
-        if s >= 0.0:
-            return t + s
+            most = tops[offsets[k] + j * sides[k] + i]
+            if low <= most:
+                if z > most:
+                    t = max(t, min(out, t + (z - most) / -dz) - _PAST)
+                k -= 1
+                continue
+        else:
+            here, east, south, other = h[j, i], h[j, i + 1], h[j + 1, i], h[j + 1, i + 1]
+            if low <= max(max(here, east), max(south, other)):
+                across, along = east - here, south - here
+                twist = other - east - along
+                u, v = x - i, y - j
+                above = z - (here + across * u + along * v + twist * u * v)
+                slope = dz - (across * dx + along * dy + twist * (u * dy + v * dx))
+                s = 0.0 if above <= 0.0 else _in_patch(-twist * dx * dy, slope, above, out - t)
+                if s >= 0.0:
+                    return t + s
         t = out + _PAST
         if k < top and ((tx <= ty and (i & 1) == right) or (ty <= tx and (j & 1) == down)):
             k += 1
@@ -124,21 +124,16 @@ def _first_hit(
 
 
 @inlined
-def _inside(place: np.ndarray, n: int, o: np.ndarray, d: np.ndarray, far: float) -> tuple[float, float]:
-    """From where to where a ray is above a window; begins after it ends where it never is."""
-    begins, ends = 0.0, far
-    for axis in range(2):
-        low = place[axis] - o[axis]
-        high = low + n * place[2] * 0.999999
-        if d[axis] != 0.0:
-            a, b = low / d[axis], high / d[axis]
-            begins, ends = max(begins, min(a, b)), min(ends, max(a, b))
-        elif low > 0.0 or high < 0.0:
-            ends = -1.0
-    return begins, ends
+def _inside(place: np.ndarray, n: int, o: np.ndarray, ix: float, iy: float, far: float) -> tuple[float, float]:
+    """From where to where a ray, by the inverse of its direction, is above a window; it begins after it ends where it
+    never is."""
+    wide = n * place[2] * 0.999999
+    a, b = (place[0] - o[0]) * ix, (place[0] - o[0] + wide) * ix
+    c, e = (place[1] - o[1]) * iy, (place[1] - o[1] + wide) * iy
+    return max(0.0, max(min(a, b), min(c, e))), min(far, min(max(a, b), max(c, e)))
 
 
-@inner
+@inner_uncounted
 def nearest_land(
     heights: np.ndarray,
     tops: np.ndarray,
@@ -149,21 +144,28 @@ def nearest_land(
     start: float,
     far: float,
     cone: float,
+    k: int,
 ) -> tuple[float, int]:
     """Returns (t, window) of the first land that a ray meets from `start` to `far`, in pixels of the finest window;
-    (MISSED, -1) where it meets none.  `cone`: how much a pixel grows along it; 0 for one that has no width.
+    (MISSED, -1) where it meets none.  `cone`: how much a pixel grows along it; 0 for one that has no width.  `k`: as
+    `_first_hit` has it.
 
     At each place the finest window counts whose cells are not too small for a pixel; what lies before a finer window is
     followed in the coarser one up to where that begins.
     """
     n = mips[1, 0]
+    ix, iy = (1.0 / d[0] if d[0] != 0.0 else 1e300), (1.0 / d[1] if d[1] != 0.0 else 1e300)
+    cells = CELLS_PER_PIXEL / cone if cone > 0.0 else 1e300
     t = start
     while t < far:
         found, until, to_finer = -1, far, far
         for w in range(len(places) - 1, -1, -1):
-            begins, ends = _inside(places[w], n, o, d, far)
-            if cone > 0.0 and w > 0:
-                ends = min(ends, _CELLS_PER_PIXEL * places[w, 2] / cone)
+            finest_until = cells * places[w, 2]
+            if w > 0 and t >= finest_until:
+                continue
+            begins, ends = _inside(places[w], n, o, ix, iy, far)
+            if w > 0:
+                ends = min(ends, finest_until)
             if ends <= begins or t >= ends - _PAST * places[w, 2]:
                 continue
             if begins <= t:
@@ -177,7 +179,7 @@ def nearest_land(
             continue
         s = places[found, 2]
         x, y = (o[0] - places[found, 0]) / s, (o[1] - places[found, 1]) / s
-        hit = _first_hit(heights[found], tops[found], mips, x, y, o[2] / s, d[0], d[1], d[2], t / s, until / s)
+        hit = _first_hit(heights[found], tops[found], mips, x, y, o[2] / s, d[0], d[1], d[2], t / s, until / s, k)
         if hit >= 0.0:
             return hit * s, found
         t = max(until, t + _PAST)
@@ -191,6 +193,6 @@ def cast(
     """Where rays (n, 6), their beginnings and directions of length 1, first meet land: hits (n, 2), the distance and
     the window.  `mips` int64 (2, k): offsets and sides of the mipmaps in `tops` (windows, ...)."""
     for r in range(len(rays)):
-        t, w = nearest_land(heights, tops, mips, places, rays[r, :3], rays[r, 3:], 0.0, 1e18, 0.0)
+        t, w = nearest_land(heights, tops, mips, places, rays[r, :3], rays[r, 3:], 0.0, 1e18, 0.0, mips.shape[1] - 1)
         hits[r, 0] = t
         hits[r, 1] = w

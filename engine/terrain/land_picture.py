@@ -26,13 +26,15 @@ _EXPOSURE = 0.86
 @dataclass(frozen=True)
 class Shot:
     """How a picture of land is taken: `size` (width, height), samples of a pixel, where the sun stands (degrees from
-    the top of the canvas, clockwise, and above the horizon), whether all below height 0 is water."""
+    the top of the canvas, clockwise, and above the horizon), whether all below height 0 is water, how many times the
+    usual haze there is."""
 
     camera: Camera
     size: tuple[int, int] = (1280, 800)
     samples: int = 16
     sun: tuple[float, float] = (300.0, 28.0)
     wet: bool = False
+    haze: float = 1.0
 
 
 class Stage(NamedTuple):
@@ -95,7 +97,7 @@ def _exposed(
     """Returns light with some samples more than what there was `before`, in pixels of `by`."""
     width, height = (-(-side // by) for side in shot.size)
     out = np.zeros((height, width, 3), np.float32) if before is None else before
-    numbers, eye = _numbers(windows, shot, wide, samples), _eye(windows, shot, by)
+    numbers, eye = numbers_of(windows, shot, wide, samples), eye_of(windows, shot, by)
     tables = windows.heights, windows.tops, windows.mips, windows.places, windows.colours
 
     def work(corner: tuple[int, int]) -> None:
@@ -113,7 +115,7 @@ def _exposed(
     return out
 
 
-def _eye(windows: Windows, shot: Shot, by: int) -> np.ndarray:
+def eye_of(windows: Windows, shot: Shot, by: int) -> np.ndarray:
     """Returns where the eye is, a pixel's width and height, and the way to the middle of the first pixel."""
     right, up, forward = shot.camera.axes()
     pixel = 2.0 * math.tan(math.radians(shot.camera.fov) / 2) / shot.size[0]
@@ -122,13 +124,14 @@ def _eye(windows: Windows, shot: Shot, by: int) -> np.ndarray:
     return np.stack([np.array([0.0, 0.0, windows.eye]), right, up, corner + 0.5 * right - 0.5 * up])
 
 
-def _numbers(windows: Windows, shot: Shot, wide: float, samples: tuple[int, int]) -> np.ndarray:
+def numbers_of(windows: Windows, shot: Shot, wide: float, samples: tuple[int, int]) -> np.ndarray:
+    """Returns the numbers that a picture is made with, as `daylight` has them."""
     azimuth, altitude = (math.radians(v) for v in shot.sun)
     flat = math.cos(altitude)
     sun = flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(altitude)
     sides = windows.places[:, 2].max()
     cone = 2.0 * math.tan(math.radians(shot.camera.fov) / 2) / shot.size[0]
-    haze = min(1e15, math.ldexp(_HAZE * wide, min(200, windows.levels[-1])))
+    haze = min(1e15, math.ldexp(_HAZE * wide / max(shot.haze, 1e-9), min(200, windows.levels[-1])))
     highest = float((windows.tops[:, -1] * windows.places[:, 2]).max()) + 1e-3
     far = 4.0 * sides * len(windows.heights[0])
     sea = max(windows.sea, -1e30)

@@ -38,6 +38,7 @@ class Skipped:
 
 # Name, what it measures.  The module bench.<name> does it.
 BENCHES = {
+    "casting": "rays over land, and a picture of it with shadows, against its rays one by one from the eye",
     "view": "a 1920 x 1080 view from its parent level, against copying the bytes that it moves",
     "dab": "soft dabs into the coverage of a stroke, and through texture into pixels",
     "place": "placements at 1920 x 1080 beside their source, and pictures that contain themselves",

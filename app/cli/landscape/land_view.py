@@ -21,7 +21,8 @@ _LARGEST = 1e12
 _SIZE, _SAMPLES, _SUN = (1280, 800), 9, (300.0, 28.0)
 _MOST_PIXELS, _MOST_SAMPLES = 1 << 26, 1024
 _PLACE = re.compile(r"[+-]?[0-9]{1,4000}(\.[0-9]{1,40})?")
-_PICTURE_OPTIONS = ("camera", "fit", "size", "samples", "sun")
+_PICTURE_OPTIONS = ("camera", "fit", "size", "samples", "sun", "haze")
+_MOST_HAZE = 1000.0
 
 
 def number(text: str) -> float:
@@ -64,6 +65,7 @@ def declare_picture(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", type=size, metavar="WxH", help="pixels of the picture (default 1280x800)")
     parser.add_argument("--samples", type=int, metavar="N", help=f"rays of each pixel (default {_SAMPLES})")
     parser.add_argument("--sun", type=sun, metavar="AZIMUTH,ALTITUDE", help="where the sun stands (default 300,28)")
+    parser.add_argument("--haze", type=number, metavar="D", help="times the usual haze, 0 for none (default 1)")
 
 
 def refuse_picture(options: argparse.Namespace, ending: str) -> None:
@@ -92,11 +94,14 @@ def write_land_view(options: argparse.Namespace, land: Land, place: tuple[int, R
     samples = _SAMPLES if options.samples is None else options.samples
     if not 1 <= samples <= _MOST_SAMPLES:
         raise Refused(f"--samples: found {samples}, expected 1 to {_MOST_SAMPLES}")
+    haze = 1.0 if options.haze is None else options.haze
+    if not 0.0 <= haze <= _MOST_HAZE:
+        raise Refused(f"--haze: found {haze:g}, expected 0 to {_MOST_HAZE:g}")
     if options.camera is not None and options.fit:
         raise Refused("--fit: found it with --camera, expected one of them")
     camera = camera_before(*place, land, pixels) if options.camera is None else _camera(options.camera, land, pixels)
     water = wet(options, land)
-    shot = Shot(camera, pixels, samples, options.sun or _SUN, water)
+    shot = Shot(camera, pixels, samples, options.sun or _SUN, water, haze)
     with Progress("picture", 100) as tell:
         seen = picture_of_land(land, cover_of(land, water), shot, tell.part)
     with replacing(options.out) as file:

@@ -167,6 +167,7 @@ WRONG = {
     "no camera": (["a.png", "--camera", "here"], "or the name of a bookmark"),
     "no sun": (["a.png", "--sun", "20,-4"], "altitude above 0"),
     "a camera of a map": (["a.png", "--for", "gis", "--fit"], "--fit: found it for .png"),
+    "less than no haze": (["a.png", "--haze", "-1"], "--haze: found -1"),
     "no samples": (["a.png", "--samples", "0"], "--samples: found 0"),
     "another ending": (["a.obj"], "expected .png or"),
     "no such layer": (["a.stl", "--height", "None"], "--height: layer: found 'None'"),

@@ -9,8 +9,9 @@ import pytest
 from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
 from engine.painting.value import Painting
+from engine.terrain import beams, caster
 from engine.terrain.camera import Camera, windows_of
-from engine.terrain.caster import cast, maxima, mipmap_of
+from engine.terrain.caster import CELLS_PER_PIXEL, cast, maxima, mipmap_of
 from engine.terrain.drape import Cover
 from engine.terrain.land_picture import Shot, developed, exposed, refinement
 from engine.terrain.plane import Land
@@ -181,3 +182,58 @@ def test_a_picture_becomes_sharper_until_it_is_the_one_that_is_asked_for():
     assert np.abs(np.array(means) - means[-1]).max() < 8
     with pytest.raises(Cancelled):
         next(refinement(seen, shot, 64, lambda: True))
+
+
+CONE = 0.03
+
+
+def marched_by_cone(windows, ray, step=0.01):
+    """As `marched`, in the finest window whose cells are not too small for a pixel there."""
+    last = len(windows.places) - 1
+
+    def above(t):
+        x, y, z = ray[:3] + t * ray[3:]
+        for w in range(last, -1, -1):
+            near = w == 0 or t < CELLS_PER_PIXEL * windows.places[w, 2] / CONE
+            ground = surface(windows, w, x, y) if near else None
+            if ground is not None:
+                return z - ground
+        return None
+
+    t = 0.0
+    while (gap := above(t)) is not None and gap >= 0 and t < 400:
+        t += max(step, gap / 40)
+    return t if gap is not None and gap < 0 else -1.0
+
+
+def test_rays_of_a_picture_begin_where_there_is_no_land_before(windows, monkeypatch):
+    """The plain forms of what is compiled: beams begin near the land, and from there rays meet what marching does."""
+    for module, name in ((beams, "_overlooks"), (caster, "_first_hit")):
+        monkeypatch.setattr(module, name, getattr(module, name).py_func)
+    w, o, room = windows, np.array([0.0, 0.0, windows.eye + 20]), np.empty(5)
+    highest = float((w.tops[:, -1] * w.places[:, 2]).max())
+    near = []
+    for left, top in np.random.default_rng(2).uniform(-0.8, 0.8, (12, 2)):
+        corners = np.array([[left + CONE * 4 * (q & 1), top + CONE * 4 * (q >> 1), -0.9] for q in range(4)])
+        corners *= 1.0 / np.linalg.norm(corners, axis=1).min()
+        begin = beams.clear_until.py_func(w.tops, w.mips, w.places, o, corners, CONE, highest, 0.0, 1e3, room)
+        for parts in ((0.1, 0.2), (0.9, 0.4), (0.5, 0.9)):
+            d = corners[0] + parts[0] * (corners[1] - corners[0]) + parts[1] * (corners[2] - corners[0])
+            size = float(np.linalg.norm(d))
+            expected = marched_by_cone(w, np.r_[o, d / size])
+            tables = w.heights, w.tops, w.mips, w.places
+            hit, where = caster.nearest_land.py_func(*tables, o, d / size, begin * size, 1e3, CONE, 1)
+            assert (hit >= 0) == (expected >= 0)
+            if hit >= 0:
+                assert abs(hit - expected) < 1e-2 * max(1.0, w.places[where, 2])
+                near.append(begin * size / hit)
+    assert len(near) > 20
+    assert max(near) <= 1.0
+    assert np.median(near) > 0.7
+
+
+def test_haze_hides_what_is_far_and_none_hides_nothing():
+    camera = Camera(0, Fraction(32), Fraction(64), 9.0, 0.0, -12.0)
+    seen = windows_of(made(Hills), camera, COVER, 0, cells=CELLS)
+    bare, usual, thick = (exposed(seen, Shot(camera, (24, 16), 1, haze=haze), 16)[-4:] for haze in (0.0, 1.0, 50.0))
+    assert bare.std() > 1.02 * usual.std() > 1.5 * thick.std()
