@@ -235,7 +235,9 @@ def test_rays_of_a_picture_begin_where_there_is_no_land_before(windows, monkeypa
 def test_haze_hides_what_is_far_and_none_hides_nothing():
     camera = Camera(0, Fraction(32), Fraction(64), 9.0, 0.0, -12.0)
     seen = windows_of(made(Hills), camera, COVER, 0, cells=CELLS)
-    bare, usual, thick = (exposed(seen, Shot(camera, (24, 16), 1, haze=haze), 16)[-4:, :, 1] for haze in (0.0, 1.0, 50.0))
+    bare, usual, thick = (
+        exposed(seen, Shot(camera, (24, 16), 1, haze=haze), 16)[-4:, :, 1] for haze in (0.0, 1.0, 50.0)
+    )
     assert bare.std() > usual.std() > 2 * thick.std()
     assert bare.mean() < usual.mean() < thick.mean()
     assert thick.mean() == pytest.approx(0.69, abs=0.05)
