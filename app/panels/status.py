@@ -82,7 +82,9 @@ def _left(desk: Desk, right: float) -> None:
             else "Paint what is selected, erase what is not; colours do not count"
         )
     else:
-        imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else TOOLS[desk.hand.tool].hint)
+        tool = TOOLS[desk.hand.tool]
+        hint = tool.hint if tool.told is None else tool.told(desk)
+        imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else hint)
 
 
 def _opening(desk: Desk, opening: Opening) -> None:

@@ -24,3 +24,4 @@ class Tool(NamedTuple):
     gesture: Callable[[Desk, PenEvent], Gesture]
     hint: str
     outline: bool = False  # shows the brush's circle
+    told: Callable[[Desk], str] | None = None  # what it does now, in place of the hint

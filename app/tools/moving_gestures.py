@@ -9,6 +9,7 @@ from app.canvas.view import View, dyadic_place
 from app.desk.desk import Desk
 from app.desk.moving import floating, held_box
 from app.desk.moving.box import INSIDE, SCALES, TURN, opposite, spot
+from app.desk.moving.move_hints import nothing_there
 from app.desk.moving.move_state import Label, Trial
 from app.desk.moving.poses import Spin, exact, factor, respun, scale_text, shifted, spin_of, turn_text
 from app.desk.moving.setting_down import set_copy_down, set_down
@@ -40,7 +41,11 @@ def move(desk: Desk, first: PenEvent) -> Gesture:
     if row.locked:
         desk.say(f"Layer “{row.name}” is locked", bad=True)
         return
-    if floating.takes_part(desk, row):
+    part = floating.takes_part(desk, row)
+    if desk.moving.floating is None and desk.moving.empty(desk.known, row, part):
+        desk.say(nothing_there(row.name, part), bad=True)
+        return
+    if part:
         yield from _move_part(desk, row, first)
         return
     box = held_box.seen_box(desk)
@@ -67,10 +72,6 @@ def move(desk: Desk, first: PenEvent) -> Gesture:
 
 def _move_part(desk: Desk, row: LayerRow, first: PenEvent) -> Gesture:
     """What is selected of a layer follows the pointer; given up, it is where it was before."""
-    extent = desk.moving.extent
-    if extent is not None and (extent.name, extent.selected, extent.part) == (row.name, True, None):
-        desk.say(f"Nothing is painted on “{row.name}” where it is selected", bad=True)
-        return
     box = held_box.seen_box(desk)
     desk.moving.grip = (box.grip(first.x, first.y) if box is not None else "") or INSIDE
     copying = desk.pointer.alt and desk.moving.grip == INSIDE

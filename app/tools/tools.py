@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app import icons
 from app.desk.framing.frame_state import FRAME_TOOL
+from app.desk.moving.move_hints import move_hint
 from app.tools.asking_gestures import pick
 from app.tools.enclosing_gestures import enclose
 from app.tools.filling_gestures import fill
@@ -21,9 +22,7 @@ _JOINING = "; Shift adds, Alt takes away, both leave what both have"
 _HELD = "with Alt from its middle, with Shift"
 TOOLS: dict[str, Tool] = {
     "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
-    "move": Tool(
-        "Move", icons.MOVE, move, "Drag the layer; its handles scale and turn it, with Shift by steps.  Nothing is lost"
-    ),
+    "move": Tool("Move", icons.MOVE, move, "Drag the layer, or what is selected of it, or a handle", told=move_hint),
     "draw_line": Tool(
         "Line",
         icons.LINE,

@@ -90,6 +90,13 @@ class MoveState:
         if waits is not None:
             waits()
 
+    def empty(self, known: Known, row: LayerRow, selected: bool) -> bool:
+        """Tells whether it is known that nothing is painted on it now, or of what is `selected`."""
+        extent = self.extent
+        if extent is None or self._told is not known.scene:
+            return False
+        return (extent.name, extent.selected, extent.part) == (row.name, selected, None)
+
     def sure(self, known: Known, do: Callable[[], None]) -> None:
         """Does something for which it must be known how far the chosen one reaches now: at once, or when it is."""
         if self._told is known.scene and self.extent is not None:

@@ -15,7 +15,7 @@ from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
 from app.desk.hand import LARGEST, SMALLEST, go_on_with_brush
 from app.desk.knots import at
-from app.panels.brush import example_section, shape_choice
+from app.panels.brush import example_section, move_choice, shape_choice
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.operations import Operations
 from app.panels.brush.save_brush import SaveBrush
@@ -47,18 +47,16 @@ _PRESSURE_ROWS = (
 )
 _TALL = ("operations",)  # sections of a mode for which the list of presets makes no room
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
+_ACROSS = 7  # buttons of tools in a row
 
 
-def _tool_row(desk: Desk, names: list[tuple[str, str, bool]], side: float, gap: float | None = None) -> float:
-    """Draws buttons of tools, and returns the gap between them: as wide as the panel lets it be, if none is given."""
-    if gap is None:
-        gap = (imgui.get_content_region_avail().x - side * len(names)) / (len(names) - 1)
+def _tool_row(desk: Desk, names: list[tuple[str, str, bool]], side: float, gap: float) -> None:
+    """Draws buttons of tools, with a gap between them."""
     for i, (name, icon, on) in enumerate(names):
         if i:
             imgui.same_line(0, gap)
         if w.icon_button(name, icon, actions.tip(name), on=on, size=side):
             actions.perform(desk, actions.ACTIONS[name])
-    return gap
 
 
 class BrushPanel:
@@ -132,8 +130,14 @@ class BrushPanel:
             ("brush", icons.BRUSH, desk.hand.tool == "brush" and not desk.hand.erasing),
             ("eraser", icons.ERASER, desk.hand.tool == "brush" and desk.hand.erasing),
         ]
-        names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "move", "pan", "zoom", "turn")]
-        gap = _tool_row(desk, names, side)
+        names.append(("pick", TOOLS["pick"].icon, desk.hand.tool == "pick"))
+        gap = (imgui.get_content_region_avail().x - side * _ACROSS) / (_ACROSS - 1)
+        _tool_row(desk, names, side, gap)
+        imgui.same_line(0, gap)
+        move_choice.draw(desk, side)
+        imgui.same_line(0, gap)
+        views = [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pan", "zoom", "turn")]
+        _tool_row(desk, views, side, gap)
         fills = desk.hand.tool if desk.hand.tool in FILL_TOOLS else "fill"
         regions = ("rectangle", "ellipse", "lasso", "polygon", "wand", fills)
         _tool_row(desk, [(name, TOOLS[name].icon, desk.hand.tool == name) for name in regions], side, gap)
