@@ -16,6 +16,7 @@ from app.canvas.screen import Screen, ScreenPlan
 from app.canvas.sheet_pass import SheetPass, SheetPlan
 from app.desk.desk import Desk
 from app.desk.moving.floating import rim_similarity
+from app.land.land_screen import LandScreen
 
 assert imgui_bundle
 
@@ -23,8 +24,9 @@ assert imgui_bundle
 class Drawing:
     """All calls from the thread that owns the window's context.  `drawn`: whether the last frame was drawn."""
 
-    def __init__(self, window: Any, screen: Screen, overlay: Overlay) -> None:
-        self._window, self._screen, self._overlay = window, screen, overlay
+    def __init__(self, window: Any, screen: Screen, overlay: Overlay, land: LandScreen) -> None:
+        self._window, self._screen, self._overlay, self._land = window, screen, overlay, land
+        self._flown = False  # whether the land was seen last
         self._plan: ScreenPlan | None = None  # of the canvas, as it was last drawn
         self._line = AntLine(screen.ctx)
         self._ants: AntPlan | None = None
@@ -36,6 +38,8 @@ class Drawing:
         """Draws what imgui shows over the canvas, if anything is to be seen that is not on the screen, or if that was
         `exposed`; True while something fades.  `fresh`: the textures that show something else now."""
         data = imgui.get_draw_data()
+        if desk.land.on or self._flown:
+            return self._land_drawn(desk, now, fresh, exposed)
         sheets = desk.moving.sheets.plan()
         self._sheets.keep(desk.moving.sheets.held)
         plan = self._seen(desk, now, sheets)
@@ -55,6 +59,24 @@ class Drawing:
             self._overlay.draw(data)
             glfw.swap_buffers(self._window)
         return plan.moving
+
+    def _land_drawn(self, desk: Desk, now: float, fresh: Set[int], exposed: bool) -> bool:
+        """Draws the land in place of the canvas; once more the canvas, when it is closed."""
+        data = imgui.get_draw_data()
+        told = self._overlay.look(data, (desk.view.width, desk.view.height), fresh)
+        if not desk.land.on:
+            self._flown = False
+            self._land.forget()
+            return self.draw(desk, now, fresh, True)
+        changed = self._land.draw(desk, now)
+        self.drawn = changed or told or exposed or not self._flown
+        self._flown = True
+        if self.drawn:
+            self._overlay.redraw(data)
+            self._land.show(desk)
+            self._overlay.draw(data)
+            glfw.swap_buffers(self._window)
+        return self._land.moving
 
     def _seen(self, desk: Desk, now: float, sheets: SheetPlan | None) -> ScreenPlan:
         """Returns what to draw of the tiles: nothing under the sheets of what is dragged."""

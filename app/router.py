@@ -16,6 +16,7 @@ from app.keys import chord
 from app.panels.layout import Layout
 from app.tools.asking_gestures import ask_here, mark, pick, swap
 from app.tools.gesture import Gesture
+from app.tools.land_gestures import look_around, on_the_land, orbit
 from app.tools.tools import TOOLS
 from app.tools.view_gestures import pan, turn, zoom
 
@@ -80,6 +81,8 @@ class Router:
     def _wheel(self, event: PenEvent, covered: bool) -> None:
         if covered:
             imgui.get_io().add_mouse_wheel_event(event.dx, event.dy)
+        elif event.dy and self.desk.land.on:
+            self.desk.land.fly(event.x, event.y, event.dy)
         elif event.dy:
             self.desk.glide.zoom(self.desk.view, event.dy * NOTCH, event.x, event.y)
 
@@ -107,8 +110,12 @@ class Router:
         """Returns the gesture that this press begins."""
         held = self._keys
         ctrl = bool({glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL} & held)
-        if glfw.KEY_SPACE in held or event.button == MIDDLE:
-            begin: Callable[[Desk, PenEvent], Gesture] = zoom if ctrl else turn if self.desk.pointer.shift else pan
+        if self.desk.land.on:
+            begin: Callable[[Desk, PenEvent], Gesture] = _on_land(
+                self.desk, event, ctrl, glfw.KEY_SPACE in held or self.layout.dialogs.open
+            )
+        elif glfw.KEY_SPACE in held or event.button == MIDDLE:
+            begin = zoom if ctrl else turn if self.desk.pointer.shift else pan
         elif self.layout.dialogs.open:  # one that lies aside: the view moves under it, and nothing else
             begin = zoom if ctrl else pan
         elif event.button == RIGHT or ctrl:
@@ -203,6 +210,15 @@ class Router:
     def panning_key(self) -> bool:
         """Tells whether the key is down that makes every press pan."""
         return glfw.KEY_SPACE in self._keys
+
+
+def _on_land(desk: Desk, event: PenEvent, ctrl: bool, moves: bool) -> Callable[[Desk, PenEvent], Gesture]:
+    """Returns what a press in the picture of the land begins; `moves`: the eye, whatever the button."""
+    if moves or event.button == MIDDLE:
+        return look_around if desk.pointer.shift else orbit
+    if event.button == RIGHT:
+        return look_around
+    return on_the_land(pick if ctrl else TOOLS[desk.hand.tool].gesture)
 
 
 def _tell_held(desk: Desk, keys: set[int]) -> None:

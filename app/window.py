@@ -34,6 +34,8 @@ from app.desk.stock import TakeStock
 from app.drawing import Drawing
 from app.faults.fault_guard import FaultGuard
 from app.input.pointers import Pointers
+from app.land.land_screen import LandScreen
+from app.land.land_wants import LandWants
 from app.news import News
 from app.pace import Pace
 from app.panels.guides.assistant_marks import draw_assistants
@@ -87,8 +89,11 @@ class Window:
         backends.opengl3_init("#version 330")
         self.screen = Screen(self.ctx)
         self.tiles, self.gallery = Tiles(self.screen), Gallery(self.ctx, self.desk.pictures)
-        self._solid = SolidView(self.ctx, self.gallery)
-        self._drawing, self._decoration = Drawing(handle, self.screen, Overlay(self.ctx)), Decoration(handle)
+        self._solid, self._land = SolidView(self.ctx, self.gallery), LandWants()
+        self._drawing, self._decoration = (
+            Drawing(handle, self.screen, Overlay(self.ctx), LandScreen(self.ctx)),
+            Decoration(handle),
+        )
         self.news = News(self.desk, self._guard, self._hearers, self.layout.hearers)
         self._files: Files | None = None
         self._laid_out = False  # whether panels were: only then the free area is known
@@ -104,7 +109,9 @@ class Window:
             return [lambda desk, part, now: self.gallery.touch(part.ident, part.size, part.area, part.pixels)]
         if kind is Tint:
             return [lambda desk, tint, now: mask_veil.hang(desk, self.gallery, tint)]
-        return [hears[kind] for hears in (self.tiles.hears, self.engine.hears, _ANTS) if kind in hears]
+        return [
+            hears[kind] for hears in (self.tiles.hears, self._land.hears, self.engine.hears, _ANTS) if kind in hears
+        ]
 
     def _dropped(self, path: Path) -> bool:
         """Takes a file that was dropped on the window: it is a panel's, or a picture or
@@ -156,11 +163,14 @@ class Window:
         moving = desk.glide.moving
         with spare("on the view's way"):
             desk.view = desk.glide.step(desk.view, seconds)
+            moving = desk.land.step(seconds, now) or moving
             going.watch(desk, now)
         self._panels()
         with spare("asking for what is to be seen"):
             if desk.known.ready:
-                self.tiles.wants(desk)
+                self._land.wants(desk, now)
+                if not desk.land.on:
+                    self.tiles.wants(desk)
                 floating.want_rim(desk)
                 held_box.wants(desk)
                 self.layout.wants(desk, now)
@@ -188,17 +198,7 @@ class Window:
         backends.glfw_new_frame()
         imgui.new_frame()
         with self._guard.spare_drawing("drawing the canvas's marks"):
-            mask_veil.draw_veil(self.desk)
-            cursor.draw_frame(self.desk)
-            cursor.draw_growing(self.desk)
-            draw_assistants(self.desk)
-            guide_marks.draw_guides(self.desk)
-            cursor.draw_outline(self.desk)
-            guide_marks.draw_copies(self.desk)
-            cursor.draw_shape(self.desk)
-            guide_marks.draw_path(self.desk)
-            box_marks.draw(self.desk)
-            frame_marks.draw_frame_marks(self.desk)
+            self._marks()
         with self._guard.spare_drawing("laying out the panels"):
             self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
             self.router.hover()
@@ -207,6 +207,22 @@ class Window:
             self._laid_out = True
             self.desk.fit()
         imgui.render()
+
+    def _marks(self) -> None:
+        """Draws what lies over the canvas, if that is seen."""
+        if self.desk.land.on:
+            return
+        mask_veil.draw_veil(self.desk)
+        cursor.draw_frame(self.desk)
+        cursor.draw_growing(self.desk)
+        draw_assistants(self.desk)
+        guide_marks.draw_guides(self.desk)
+        cursor.draw_outline(self.desk)
+        guide_marks.draw_copies(self.desk)
+        cursor.draw_shape(self.desk)
+        guide_marks.draw_path(self.desk)
+        box_marks.draw(self.desk)
+        frame_marks.draw_frame_marks(self.desk)
 
     def wait(self, moving: bool) -> None:
         """Sleeps until the next frame; `moving`: what the last one gave."""

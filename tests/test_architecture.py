@@ -34,6 +34,7 @@ ORDER = (
     ("app.desk",),
     ("app.actions", "app.tools"),
     ("app.panels",),
+    ("app.land",),
     (
         "app.router",
         "app.cursor",

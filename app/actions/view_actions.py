@@ -63,6 +63,11 @@ def _light(desk: Desk) -> None:
     desk.light.on = not desk.light.on
 
 
+def _land(desk: Desk) -> None:
+    desk.glide.land()
+    desk.land.on = not desk.land.on
+
+
 def _strip(name: str) -> Callable[[Desk], None]:
     def toggle(desk: Desk) -> None:
         desk.strip = "" if desk.strip == name else name
@@ -109,6 +114,10 @@ VIEW_ACTIONS: dict[str, A] = {
         _light,
         always,
         lambda desk: desk.light.on,
+    ),
+    "land": A(
+        "Terrain", "View", ("Ctrl+T",), "Fly over the painting as land, and paint on it", _land, ready,
+        lambda desk: desk.land.on,
     ),
     "lab": A("Texture lab", "View", ("L",), "Paint a texture by its spectrum", _strip("lab"), ready, _open("lab")),
     "analysis": A(

@@ -22,6 +22,7 @@ from app.desk.guides.guide_state import GuideState
 from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
+from app.desk.land.land_state import LandState
 from app.desk.lit.light_state import LightState
 from app.desk.masks.mask_state import MaskState
 from app.desk.match_state import MatchState
@@ -118,6 +119,7 @@ class Desk:
     strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
     light: LightState = field(default_factory=LightState)
     lab: LabState = field(default_factory=LabState)
+    land: LandState = field(default_factory=LandState)
     match: MatchState = field(default_factory=MatchState)
     examples: ExampleState = field(default_factory=ExampleState)
     recovery: RecoveryState = field(default_factory=RecoveryState)

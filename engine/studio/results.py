@@ -17,6 +17,7 @@ from engine.numeric.arithmetic import FINE
 from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
 from engine.studio.held.held_records import Held
+from engine.studio.land.land_records import LandResult
 from engine.studio.layer_rows import LayerRow as LayerRow
 from engine.studio.layer_rows import Shows as Shows
 from engine.studio.moving.move_requests import BakeTold, Extent
@@ -310,6 +311,7 @@ Result = (
     | BakeTold
     | SheetResult
     | Tried
+    | LandResult
     | Ants
     | Tint
     | Held

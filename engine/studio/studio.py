@@ -30,6 +30,8 @@ from engine.studio.held.holding import Holding
 from engine.studio.journalled.answers import Answers
 from engine.studio.journalled.posts import Posts
 from engine.studio.journalled.tend_request import Tend
+from engine.studio.land.land_maker import LandMaker
+from engine.studio.land.still_picture import StillPictures
 from engine.studio.masked.mask_pictures import MaskPictures
 from engine.studio.moving.frame_fitting import FrameFitter
 from engine.studio.moving.moves import Moves
@@ -116,7 +118,7 @@ class Studio(Owned):
             *_each(Moves(easel), FrameFitter(easel)),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
             Work(lambda: past.untold, past.tell),
-            *_each(Sheeting(easel), travels, HereFinder(trail)),
+            *_each(LandMaker(easel), Sheeting(easel), travels, HereFinder(trail)),
             Work(lambda: self.grower.pending, self._grow),
             *_each(Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
             _of(past),
@@ -132,6 +134,7 @@ class Studio(Owned):
             Tend: lambda r: None,
             **self.filing.handlers,
             **Warming(send).handlers,
+            **StillPictures(easel).handlers,
         }
         for row in self._rows:
             self._handlers |= row.handlers

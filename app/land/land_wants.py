@@ -1,0 +1,126 @@
+"""What the window asks of land: the tiles it lacks, the height of the ground, a picture once the eye rests."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from app.desk.desk import Desk, Hear
+from app.desk.land.land_above import follow_canvas
+from app.desk.land.land_state import first_eye
+from engine.studio import results
+from engine.studio.land.land_records import AskGround, AskLand, AskStill, GroundFound, LandMade, StillCome
+from engine.terrain.seen.choosing import choose_tiles
+
+ASKED_AT_ONCE = 48  # tiles that are asked for at a time
+RESTS_AFTER = 0.25  # seconds without a move after which the picture at rest is asked for
+_WIDE = 1.0  # of the window's width, of the land that is seen in the middle at first
+
+
+class LandWants:
+    """All calls from the window's thread."""
+
+    def __init__(self) -> None:
+        self._asked: tuple[object, ...] = ()
+        self._still: tuple[object, ...] = ()
+        self._serial: int | None = None
+        self.hears: dict[type, Hear] = {
+            LandMade: _made,
+            GroundFound: self._ground,
+            StillCome: _still,
+            results.Scene: self._scene,
+        }
+
+    def wants(self, desk: Desk, now: float) -> None:
+        """Posts what is lacking."""
+        state = desk.land
+        if not state.on:
+            if self._asked:
+                self._asked = self._still = ()
+                desk.post(AskLand(()))
+                desk.post(AskStill(state.number))
+                state.forget()
+            return
+        left, top, right, bottom = (round(inset) for inset in desk.insets)
+        room = left, top, max(1, desk.view.width - left - right), max(1, desk.view.height - top - bottom)
+        if room != state.room:
+            state.room, state.changed, state.still = room, True, None
+        if desk.known.scene is not None and desk.known.scene.frame != state.frame:
+            state.frame, state.changed = desk.known.scene.frame, True
+        if state.eye is None:
+            self._place(desk)
+            return
+        if state.changed:
+            self._tiles(desk)
+            if not desk.painting:
+                follow_canvas(desk)
+        self._rest(desk, now)
+
+    def _place(self, desk: Desk) -> None:
+        """Asks how high the ground is that lies in the middle of the canvas."""
+        state = desk.land
+        if state.asked is None:
+            place = desk.view.to_canvas(*desk.middle())
+            by = 1 << place.exponent if place.exponent >= 0 else 1
+            ask = AskGround(Fraction(place.x, by), Fraction(place.y, by), desk.view.shown_level)
+            state.asked = ask
+            self._asked = (ask,)
+            desk.post(ask)
+
+    def _tiles(self, desk: Desk) -> None:
+        state = desk.land
+        found = choose_tiles(state.sight(), {key: kept.tile for key, kept in state.kept.items()})
+        state.drawn, state.lacking = found.drawn, len(found.lacking)
+        state.use(found.wanted)
+        wanted = [(key, -1) for key in found.lacking[:ASKED_AT_ONCE]]
+        wanted += [(key, state.kept[key].revision) for key in found.drawn]
+        asked = tuple(wanted)
+        if asked != self._asked:
+            self._asked = asked
+            desk.post(AskLand(asked))
+
+    def _rest(self, desk: Desk, now: float) -> None:
+        state = desk.land
+        key = (state.eye, state.size, max((kept.revision for kept in state.kept.values()), default=0))
+        if self._still and self._still != key:
+            self._still = ()
+            state.number += 1
+            desk.post(AskStill(state.number))
+        if (
+            not self._still
+            and not state.lacking
+            and not state.goal
+            and now - state.moved > RESTS_AFTER
+            and not desk.painting
+        ):
+            self._still = key
+            state.number += 1
+            desk.post(AskStill(state.number, state.eye, state.clear, state.size))
+
+    def _ground(self, desk: Desk, found: GroundFound, now: float) -> None:
+        state = desk.land
+        if found.asked is not state.asked or not state.on:
+            return
+        view = desk.view
+        wide = _WIDE * state.size[0] / view.scale(0)
+        turn = -view.angle * 57.29577951308232
+        state.clear = 0.4 * wide
+        state.eye = None
+        state.look(first_eye(found.asked.x, found.asked.y, found.z, wide, turn), now)
+        assert state.eye is not None
+        state.clear = max(1e-9, state.eye.z - found.z)
+
+    def _scene(self, desk: Desk, scene: results.Scene, _now: float) -> None:
+        """Another painting is shown."""
+        if scene.serial != self._serial:
+            self._serial = scene.serial
+            desk.land.forget()
+
+
+def _made(desk: Desk, made: LandMade, now: float) -> None:
+    if desk.land.on:
+        desk.land.take(made.tile, made.revision, now)
+
+
+def _still(desk: Desk, still: StillCome, _now: float) -> None:
+    if desk.land.on and still.number == desk.land.number:
+        desk.land.still = still

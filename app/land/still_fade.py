@@ -1,0 +1,68 @@
+"""The picture at rest comes over the one that moves, each sharper one over the one before."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from app.canvas.shader_files import shader_source
+from app.desk.land.land_state import LandState
+from engine.studio.land.land_records import StillCome
+
+SECONDS = 0.35
+
+
+class StillFade:
+    """All calls from the thread that owns the context."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._ctx = ctx
+        self._sources = shader_source("still.vert"), shader_source("still.frag")
+        self._program: moderngl.Program | None = None
+        self._still: moderngl.Texture | None = None
+        self._shown: StillCome | None = None
+        self._since = 0.0
+        self._part = 0.0
+        self._reach = (1.0, 1.0)
+
+    @property
+    def moving(self) -> bool:
+        """Tells whether it still comes."""
+        return self._shown is not None and self._part < 1.0
+
+    def follow(self, state: LandState, now: float) -> bool:
+        """Takes over which picture is there; True if it is another one, or more of it is seen."""
+        still, before = state.still, self._part
+        if still is not self._shown:
+            if still is None or self._shown is None:
+                self._since = now
+            self._shown = still
+            if still is not None:
+                self._hang(still, state.size)
+            before = -1.0
+        self._part = 0.0 if self._shown is None else min(1.0, (now - self._since) / SECONDS)
+        return self._part != before
+
+    def _hang(self, still: StillCome, size: tuple[int, int]) -> None:
+        high, wide = still.pixels.shape[:2]
+        if self._still is not None and self._still.size != (wide, high):
+            self._still.release()
+            self._still = None
+        if self._still is None:
+            self._still = self._ctx.texture((wide, high), 3, alignment=1)
+            self._still.repeat_x = self._still.repeat_y = False
+        self._still.write(np.ascontiguousarray(still.pixels), alignment=1)
+        self._reach = size[0] / (still.by * wide), size[1] / (still.by * high)
+
+    def draw(self, moving: moderngl.Texture) -> None:
+        """Draws both into the present viewport."""
+        if self._program is None:
+            self._program = self._ctx.program(*self._sources)
+            corners = self._ctx.buffer(np.array([-1, -1, 1, -1, -1, 1, 1, 1], np.float32).tobytes())
+            self._whole = self._ctx.vertex_array(self._program, [(corners, "2f", "at")])
+            self._program["moving"], self._program["still"] = 0, 1
+        moving.use(0)
+        (self._still or moving).use(1)
+        self._program["part"] = self._part if self._shown is not None else 0.0
+        self._program["reach"] = self._reach
+        self._whole.render(moderngl.TRIANGLE_STRIP)

@@ -1,0 +1,1 @@
+"""The painting as land, as the window shows it: tiles while the eye moves, a picture by rays while it rests."""

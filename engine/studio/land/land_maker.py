@@ -1,0 +1,131 @@
+"""Tiles of land for the window, made on the engine's thread: one a step, the most urgent first."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+
+from engine.checks.owned import Owned
+from engine.numeric.address import Rect
+from engine.painting.difference import areas
+from engine.painting.value import Painting
+from engine.studio.easel import Easel
+from engine.studio.land.land_records import AskGround, AskLand, GroundFound, LandMade
+from engine.studio.requests import Handlers
+from engine.studio.sight import STEPS_KEPT
+from engine.terrain.drape import cover_of
+from engine.terrain.plane import DEEP, Land, heights_of, land
+from engine.terrain.seen.land_tiles import FINER, QUADS, TEXELS, TileKey
+from engine.terrain.seen.tile_making import SHADE_MARGIN, TileMaker
+
+_Where = Callable[[int], "list[Rect] | None"]
+
+
+class LandMaker(Owned):
+    """It belongs to the engine's thread.  The newest `AskLand` counts."""
+
+    def __init__(self, easel: Easel) -> None:
+        self._easel = easel
+        self._painting: Painting | None = None  # that the tiles are of
+        self._maker: TileMaker | None = None
+        self._revision = 0
+        self._changes: deque[tuple[int, _Where]] = deque(maxlen=STEPS_KEPT)
+        self._wanted: dict[TileKey, int] = {}
+        self._open: deque[TileKey] = deque()
+        self.handlers: Handlers = {AskLand: self._ask, AskGround: self._find}
+
+    @property
+    def pending(self) -> int:
+        """Returns tiles to look at."""
+        if self._wanted and self._easel.session.painting is not self._painting:
+            self._follow()
+        return len(self._open)
+
+    def step(self) -> None:
+        """Makes the next tile that is lacking or old."""
+        while self._open:
+            key = self._open[0]
+            if self._is_old(key):
+                assert self._maker is not None
+                tile = self._maker.make(key)
+                self._open.popleft()
+                self._wanted[key] = self._revision
+                self._easel.send(LandMade(tile, self._revision))
+                return
+            self._open.popleft()
+
+    def _ask(self, request: AskLand) -> None:
+        self._wanted = dict(request.tiles)
+        if not self._wanted:
+            self._open.clear()
+            self._maker = self._painting = None
+            self._changes.clear()
+            return
+        self._follow()
+        self._open = deque(self._wanted)
+
+    def _find(self, request: AskGround) -> None:
+        self._follow()
+        assert self._maker is not None
+        level = min(request.level, DEEP)
+        by = 2**level if level >= 0 else 1 / 2**-level
+        x, y = int(request.x * by // 1), int(request.y * by // 1)
+        z = float(self._maker.land.height(level, Rect.at(x, y, 1, 1))[0, 0])
+        self._easel.send(GroundFound(request, max(z, 0.0) if self._maker.wet else z))
+
+    def _follow(self) -> None:
+        """Takes over the painting as it is now, and notes where it is another one than before."""
+        painting, before = self._easel.session.painting, self._painting
+        if painting is before:
+            return
+        self._painting = painting
+        cache = self._easel.session.cache
+        where = None if before is None or _told(before) != _told(painting) else areas(before, painting)
+        if where is None or self._maker is None:
+            self._revision += 1
+            self._changes.clear()
+            seen = land(painting, cache=cache)
+            wet = seen.sea != 0.0
+            self._maker = TileMaker(seen, cover_of(seen, wet), wet)
+            self._changes.append((self._revision, lambda level: None))
+        else:
+            self._revision += 1
+            self._changes.append((self._revision, where))
+            seen = _of(self._maker.land, painting)
+            cover = replace(cover_of(seen, self._maker.wet), low=self._maker.cover.low, high=self._maker.cover.high)
+            self._maker = TileMaker(seen, cover, self._maker.wet)
+        self._open = deque(self._wanted)
+
+    def _is_old(self, key: TileKey) -> bool:
+        """Tells whether the window's copy of a tile is none, or shows something else than the painting."""
+        held = self._wanted.get(key, self._revision)
+        if held == self._revision:
+            return False
+        if held < 0 or not self._changes or self._changes[0][0] > held + 1:
+            return True
+        level = key.level + FINER
+        reach = Rect.at(key.x * TEXELS, key.y * TEXELS, TEXELS, TEXELS).grown(_SHADED)
+        for revision, where in self._changes:
+            found = where(level) if revision > held else []
+            if found is None or any(area.meets(reach) for area in found):
+                return True
+        self._wanted[key] = self._revision
+        return False
+
+
+_SHADED = SHADE_MARGIN * (1 << FINER) + QUADS  # texels around a tile in which a change may be seen in its light
+
+
+def _of(before: Land, painting: Painting) -> Land:
+    """Returns another painting seen as the same land."""
+    return replace(before, painting=painting, _known={})
+
+
+def _told(painting: Painting) -> tuple[object, ...]:
+    """Returns what the land is told by, besides its paint."""
+    node = heights_of(painting)
+    frame = painting.frame
+    return (
+        (frame, None) if node is None else (frame, node.name, getattr(node, "scale", None), getattr(node, "sea", None))
+    )

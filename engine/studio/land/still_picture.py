@@ -1,0 +1,74 @@
+"""The picture of land by rays while the eye rests: worked out on threads of its own, so that no stroke waits for it."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from fractions import Fraction
+
+from engine.canvas.tile_cache import TileCache
+from engine.checks.owned import Owned
+from engine.files.fault import Cancelled
+from engine.numeric.address import Rect
+from engine.painting.value import Painting
+from engine.studio.easel import Easel
+from engine.studio.land.land_records import AskStill, StillCome
+from engine.studio.requests import Handlers
+from engine.studio.results import frozen
+from engine.terrain.camera import Camera, windows_of
+from engine.terrain.drape import cover_of
+from engine.terrain.land_picture import Shot, refinement
+from engine.terrain.plane import land
+
+_SAMPLES = 16
+_CACHE = 32 << 20  # bytes
+
+
+class StillPictures(Owned):
+    """It belongs to the engine's thread.  The newest `AskStill` counts: one thread at a time works, and looks every
+    some milliseconds whether its picture is still wanted."""
+
+    def __init__(self, easel: Easel) -> None:
+        self._easel = easel
+        self._gone = threading.Event()  # set: the picture that was asked for last is not wanted any more
+        self._turn = threading.Lock()
+        self.handlers: Handlers = {AskStill: self._ask}
+
+    def _ask(self, request: AskStill) -> None:
+        self._gone.set()
+        if request.eye is None:
+            return
+        gone = self._gone = threading.Event()
+        painting, send, turn = self._easel.session.painting, self._easel.send, self._turn
+
+        def work() -> None:
+            with turn, suppress(Cancelled):
+                if not gone.is_set():
+                    _take(painting, request, gone.is_set, send)
+
+        threading.Thread(target=work, name="inkfall land", daemon=True).start()
+
+
+def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send: Callable[[StillCome], None]) -> None:
+    """Sends a picture that becomes sharper; Cancelled as soon as it is not wanted any more."""
+    eye = request.eye
+    assert eye is not None
+    seen = land(painting, cache=TileCache(_CACHE))
+    wet = seen.sea != 0.0
+    cover = cover_of(seen, wet)
+    camera = Camera(0, eye.x, eye.y, request.clear, eye.azimuth, eye.tilt, eye.fov)
+    finest = camera.finest(request.size)
+    by = Fraction(2) ** finest
+    foot = Rect.at(math.floor(eye.x * by), math.floor(eye.y * by), 1, 1)
+    ground = float(seen.height(finest, foot)[0, 0])
+    camera = replace(camera, height=max(eye.z - (max(ground, 0.0) if wet else ground), 2.0**-finest))
+    shot = Shot(camera, request.size, _SAMPLES, wet=wet)
+    windows = windows_of(seen, camera, cover, camera.finest(shot.size), wet)
+    for stage in refinement(windows, shot, painting.frame.width, gone):
+        if gone():
+            raise Cancelled
+        last = stage.samples == _SAMPLES
+        send(StillCome(request.number, frozen(stage.picture), stage.by, last))
