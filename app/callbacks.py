@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,27 +13,26 @@ import glfw  # isort: skip
 from imgui_bundle.imgui import backends
 
 from app.input.drops import say_taken
-from app.panels.layout import Layout
 from app.router import Router
 
 Drop = Callable[[Path], bool]
+Before = Callable[[int | None], None]
 
 
 class Callbacks:
     """Keys and text go to imgui at once, and to the router when the frame asks for them.
 
-    `event` is called whenever anything happens, `drop` with a file that was dropped on the window, which tells
+    `event` is called whenever anything happens; `before` with the code of a key, or None as the focus is lost, ahead of
+    that: it sees to what the pointer did before; `drop` with a file that was dropped on the window, which tells
     whether that is taken.
     """
 
-    def __init__(
-        self, window: Any, address: int, router: Router, layout: Layout, event: Callable[[], None], drop: Drop
-    ) -> None:
-        self._address, self._router, self._layout = address, router, layout
-        self._event, self._drop = event, drop
+    def __init__(self, window: Any, router: Router, event: Callable[[], None], before: Before, drop: Drop) -> None:
+        self._address = ctypes.cast(window, ctypes.c_void_p).value or 0
+        self._router, self._layout = router, router.layout
+        self._event, self._before, self._drop = event, before, drop
         self.exposed = True  # the window system has lost what the window showed, or never had it
         self._keys: list[tuple[int, int, int, int] | None] = []  # None: the focus was lost
-        self._characters: list[int] = []
         glfw.set_key_callback(window, self._key)
         glfw.set_char_callback(window, self._typed)
         glfw.set_window_focus_callback(window, self._focus)
@@ -51,29 +51,26 @@ class Callbacks:
                 self._router.lost_focus()
             else:
                 self._router.key(*key)
-        characters, self._characters = self._characters, []
-        for character in characters if self._router.typing else ():
-            backends.glfw_char_callback(self._address, character)
 
     def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
         self._event()
+        self._before(scancode)
         typing = imgui.get_io().want_text_input or self._layout.dialogs.open
         if key != glfw.KEY_TAB or typing:  # Tab would put the focus into a field, which then took all keys
             backends.glfw_key_callback(self._address, key, scancode, action, mods)
         self._keys.append((key, scancode, action, mods))
 
     def _typed(self, _w: Any, character: int) -> None:
-        """What may be a key of the canvas waits for what the pointer did: a press may have given the focus to a field,
-        and a field that opens later must not get it."""
+        """What is a key of the canvas must not go to a field that opens later; a press before it may have given the
+        focus to one."""
         if self._router.typing:
             backends.glfw_char_callback(self._address, character)
-        else:
-            self._characters.append(character)
 
     def _focus(self, _w: Any, focused: int) -> None:
         self._event()
         backends.glfw_window_focus_callback(self._address, focused)
         if not focused:
+            self._before(None)
             self._keys.append(None)
 
     def _refresh(self, _w: Any) -> None:

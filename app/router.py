@@ -25,6 +25,7 @@ _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
 _ACTIONS = {BACK: "back", FORWARD: "forward"}  # of buttons that mean the same wherever they are pressed
 _AWAY = -3.4e38  # where imgui looks for a pointer that is not there
 FOCUSING = 0.5  # seconds after a press on a panel in which a text field there may get the focus
+TAKEN_IN = 6  # frames that this takes, at least
 _TOLD = {"Enter": "done", "Backspace": "back"}  # keys that a gesture is told of
 _TYPED_ANYWHERE = ("Ctrl+S", "Ctrl+Q", "F1")
 
@@ -39,7 +40,7 @@ class Router:
         self._last = PenEvent("lost", 0.0, 0.0)  # what the gesture was told last
         self._panel_buttons: set[int] = set()
         self._keys: set[int] = set()
-        self._field_until = 0.0
+        self._field_until, self._field_frames = 0.0, 0
 
     def pointer(self, event: PenEvent) -> None:
         """Takes one pointer event."""
@@ -95,7 +96,7 @@ class Router:
             return
         if covered:
             self._panel_buttons.add(event.button)
-            self._field_until = time.monotonic() + FOCUSING
+            self._field_until, self._field_frames = time.monotonic() + FOCUSING, TAKEN_IN
             imgui.get_io().add_mouse_button_event(_IMGUI_BUTTON[event.button], True)
             return
         if not self.layout.dialogs.open:
@@ -190,6 +191,7 @@ class Router:
 
     def hover(self) -> None:
         """Finds what the pointer is over, now that the panels are drawn: a dialog may have opened under it."""
+        self._field_frames -= 1
         at = self.desk.pointer
         if at.over_canvas and self.gesture is None and self.layout.covers(at.x, at.y):
             at.over_canvas = False
@@ -204,7 +206,7 @@ class Router:
     def typing(self) -> bool:
         """Tells whether what is typed may be for a text field."""
         field = imgui.get_io().want_text_input or self.layout.dialogs.open or self.layout.popup
-        return field or time.monotonic() < self._field_until
+        return field or self._field_frames > 0 or time.monotonic() < self._field_until
 
     @property
     def panning_key(self) -> bool:

@@ -15,6 +15,7 @@ TRACED = bool(os.environ.get("INKFALL_TRACE"))
 _placed: dict[tuple[str, str], Box] = {}  # in the frame that is drawn now
 _told: dict[tuple[str, str], Box] = {}  # at the end of the frame before
 _rest = ""  # what was told of it last
+_typing = False  # likewise
 
 
 def trace(what: str) -> None:
@@ -74,6 +75,15 @@ def trace_rest(rests: bool, at: tuple[float, float]) -> None:
     if told != _rest:
         _rest = told
         sys.stderr.write(f"{told}\n")
+        sys.stderr.flush()
+
+
+def trace_typing(typing: bool) -> None:
+    """Tells whether a text field takes what is typed, when that is another than before."""
+    global _typing
+    if TRACED and typing != _typing:
+        _typing = typing
+        sys.stderr.write(f"typing {'on' if typing else 'off'}\n")
         sys.stderr.flush()
 
 

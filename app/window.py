@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +34,7 @@ from app.desk.recovery.recovery_work import FindCards
 from app.desk.stock import TakeStock
 from app.drawing import Drawing
 from app.faults.fault_guard import FaultGuard
+from app.input.events import PenEvent
 from app.input.pointers import Pointers
 from app.land.land_screen import LandScreen
 from app.land.land_wants import LandWants
@@ -43,7 +45,7 @@ from app.panels.layout import Layout
 from app.panels.moving import box_marks, frame_marks
 from app.router import Router
 from app.solid_view import SolidView
-from app.trace import trace_rest
+from app.trace import trace_rest, trace_typing
 from app.wanted_tiles import Tiles
 from engine.studio import results
 from engine.studio.selecting.ants_records import Ants
@@ -84,7 +86,7 @@ class Window:
         self.router = Router(self.desk, self.layout)
         self.pointers = Pointers(handle)
         address = ctypes.cast(handle, ctypes.c_void_p).value or 0
-        self._callbacks = Callbacks(handle, address, self.router, self.layout, self.pace.event, self._dropped)
+        self._callbacks = Callbacks(handle, self.router, self.pace.event, self._before_key, self._dropped)
         backends.glfw_init_for_opengl(address, False)
         backends.opengl3_init("#version 330")
         self.screen = Screen(self.ctx)
@@ -152,12 +154,7 @@ class Window:
         desk, now, spare = self.desk, time.monotonic(), self._guard.spare
         seconds = self.pace.begin(now)
         self._resize()
-        for event in self.pointers.events() if desk.known.presets else ():  # kept until there is a brush to paint with
-            self.pace.event()
-            with spare("on what the pointer did"):
-                self.router.pointer(event)
-        with spare("on a key"):
-            self._callbacks.deliver()  # after the pointer: a stroke ends before what a key does to it
+        self._keys_and_pointer(self.pointers.events)
         if self.news.take(now):
             self.pace.news(now)
         moving = desk.glide.moving
@@ -184,6 +181,22 @@ class Window:
             moving = self._drawing.draw(desk, now, self.gallery.fresh(), exposed) or moving
         self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None)
         return moving or len(imgui.get_current_context().input_events_queue) > 0  # it takes one key a frame
+
+    def _before_key(self, scancode: int | None) -> None:
+        """Sees to what the pointer did before a key, or before the focus is lost: a stroke ends before what a key does
+        to it."""
+        events = self.pointers.events
+        self._keys_and_pointer(events if scancode is None else lambda: self.pointers.events_before(scancode))
+
+    def _keys_and_pointer(self, events: Callable[[], list[PenEvent]]) -> None:
+        """Sees to keys that GLFW has told, and to what the pointer did after them."""
+        found = events() if self.desk.known.presets else ()  # kept until there is a brush to paint with
+        with self._guard.spare("on a key"):
+            self._callbacks.deliver()
+        for event in found:
+            self.pace.event()
+            with self._guard.spare("on what the pointer did"):
+                self.router.pointer(event)
 
     def _resize(self) -> None:
         width, height = glfw.get_framebuffer_size(self.handle)
@@ -227,6 +240,7 @@ class Window:
     def wait(self, moving: bool) -> None:
         """Sleeps until the next frame; `moving`: what the last one gave."""
         trace_rest(not moving and self.engine.worker.settled, (self.desk.pointer.x, self.desk.pointer.y))
+        trace_typing(imgui.get_io().want_text_input)
         with self._guard.spare("on an event of the window system"):  # what its callbacks raised
             blinks = imgui.get_io().want_text_input or self.desk.selecting.selected
             self.pace.wait(moving, self.desk.painting, blinks)

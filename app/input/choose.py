@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import glfw
 
 from app.input.events import PointerSource
+
+if TYPE_CHECKING:
+    from app.input.key_times import KeyTimes
 
 
 def pen_source(window: Any) -> PointerSource | None:
@@ -26,5 +29,19 @@ def pen_source(window: Any) -> PointerSource | None:
 
             return XInput2Pointer(glfw.get_x11_window(window), glfw.post_empty_event)
     except (RuntimeError, OSError, ImportError, AttributeError):
+        return None
+    return None
+
+
+def key_times() -> KeyTimes | None:
+    """Returns what knows when keys were pressed where pens are heard over a connection of their own, on X11; None
+    elsewhere, as all events of a window come in their order there."""
+    try:
+        if glfw.get_platform() == glfw.PLATFORM_X11:
+            from app.input.key_times import KeyTimes
+
+            display: Any = glfw.get_x11_display  # without types
+            return KeyTimes(display())
+    except (OSError, AttributeError):
         return None
     return None

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import glfw
 
-from app.input.choose import pen_source
+from app.input.choose import key_times, pen_source
 from app.input.events import PenEvent, PointerSource
 from app.input.glfw_events import GlfwPointer
+
+if TYPE_CHECKING:
+    from app.input.key_times import KeyTimes
 
 
 class Pointers:
@@ -18,18 +21,32 @@ class Pointers:
         self._window = window
         self.mouse: PointerSource = GlfwPointer(window)
         self._pen: PointerSource | None = None
+        self._keys: KeyTimes | None = None
+        self._later: list[PenEvent] = []  # what came after a key that was told
 
     def hear_pens(self) -> None:
         """From now on pens are heard."""
         self._pen = pen_source(self._window)
+        self._keys = key_times() if self._pen is not None else None
 
     def events(self) -> list[PenEvent]:
         """Returns what came since the last call.
 
         What GLFW tells comes first: where pens are heard, X tells it nothing any more but what happened before.
         """
-        found = self._pen.events() if self._pen is not None else []
+        found, self._later = [*self._later, *(self._pen.events() if self._pen is not None else [])], []
         return [*self.mouse.events(), *found]
+
+    def events_before(self, scancode: int) -> list[PenEvent]:
+        """Returns what came since the last call and before the key that GLFW tells of now; all that came, where it is
+        not known when a key was pressed: GLFW itself tells everything in its order."""
+        time = self._keys.of(scancode) if self._keys is not None else None
+        if time is None:
+            return self.events()
+        mouse, found = self.mouse.events(), [*self._later, *(self._pen.events() if self._pen is not None else [])]
+        first = next((i for i, event in enumerate(found) if after(event, time)), len(found))
+        self._later = found[first:]
+        return [*mouse, *found[:first]]
 
     def at(self) -> tuple[float, float]:
         """Tells where the mouse is, framebuffer pixels: while something is dragged, no events tell."""
@@ -42,3 +59,10 @@ class Pointers:
         """Gives back what pens hold."""
         if self._pen is not None:
             self._pen.close()
+        if self._keys is not None:
+            self._keys.close()
+
+
+def after(event: PenEvent, time: int) -> bool:
+    """Tells whether it came after a time of the X server's clock, milliseconds, which begins anew after 2^32."""
+    return 0 < (round(event.time * 1000) - time) % 2**32 < 2**31

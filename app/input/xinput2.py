@@ -1,7 +1,8 @@
 """Pens and mice on X11 through XInput 2: sub-pixel places, pressure, tilt, in one ordered stream.
 
 GLFW knows no pens.  This opens a connection of its own to the X server and selects the master pointers' events on
-GLFW's window; GLFW's own pointer callbacks then fall silent for it.  A thread waits on that connection.
+GLFW's window; GLFW's own pointer callbacks then fall silent for it.  A thread waits on that connection; whoever asks
+for events reads there, too, so that none is missed that came before.
 Protocol: "X Input Extension 2.x" (X.Org), structures as in XInput2.h.
 """
 
@@ -267,6 +268,7 @@ class XInput2Pointer:
         self._extension = self._check()
         self._wake = wake
         self._queue: deque[PenEvent] = deque()
+        self._reading = threading.Lock()  # whoever has it uses the connection
         self._devices = self._query()
         self._held: dict[int, PenEvent] = {}  # by the ids of devices that are pressed, what came last of each
         self._select(window)
@@ -326,19 +328,24 @@ class XInput2Pointer:
 
     def _run(self) -> None:
         descriptor = self._lib.x.XConnectionNumber(self._display)
-        event = Event()
         while True:
-            if not self._lib.x.XPending(self._display):
+            if not self._read():
                 ready, _, _ = select.select([descriptor, self._quit_read], [], [])
                 if self._quit_read in ready:
                     break
-                if not self._lib.x.XPending(self._display):
-                    continue
+                continue
+            self._wake()
+        self._lib.x.XCloseDisplay(self._display)
+
+    def _read(self) -> bool:
+        """Takes in what has come; whether there was anything."""
+        event, found = Event(), False
+        with self._reading:
             while self._lib.x.XPending(self._display):
                 self._lib.x.XNextEvent(self._display, event)
                 self._handle(event)
-            self._wake()
-        self._lib.x.XCloseDisplay(self._display)
+                found = True
+        return found
 
     def _handle(self, event: Event) -> None:
         cookie = event.xcookie
@@ -371,6 +378,7 @@ class XInput2Pointer:
     def events(self) -> list[PenEvent]:
         """Gives what came since the last call, in order."""
         out = []
+        self._read()
         while self._queue:
             out.append(self._queue.popleft())
         return out

@@ -6,13 +6,13 @@ import moderngl
 import pytest
 from driven import Program
 from forked import Server
-from xserver import lacking, need, started_server
+from xserver import lacking, need, started_screen
 
 
 @pytest.fixture(scope="session")
 def display():
     need("Xvfb", "xdotool")
-    process, name = started_server(["Xvfb", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp"])
+    process, name = started_screen()
     yield name
     process.terminate()
     process.wait(10)

@@ -70,11 +70,7 @@ class Program:
 
     def until_rest(self, at: Point) -> None:
         """Waits until the program has taken the pointer there, and all that was asked for is done and drawn."""
-        end = time.monotonic() + PATIENCE
-        while not self._told_at().startswith(f"rest {at[0]},{at[1]}\n"):
-            assert self.process.poll() is None, self.log.read_text()
-            assert time.monotonic() < end, f"not at rest at {at}: {self.log.read_text()[-2000:]}"
-            time.sleep(0.05)
+        self.wait_until(lambda: self._told_at().startswith(f"rest {at[0]},{at[1]}\n"), f"not at rest at {at}")
 
     def move_to(self, at: Point) -> None:
         """Moves the pointer, and again until the program has taken it: it hears of none before its window is there."""
@@ -145,7 +141,27 @@ class Program:
             time.sleep(0.08)
 
     def type(self, text: str) -> None:
+        """Types into the field that has the focus, as soon as one has."""
+        self.wait_until(self._typing, "no field takes what is typed")
         self.do("type", "--delay", "20", text)
+
+    def fill(self, text: str) -> None:
+        """Types into the field that has the focus, instead of what is in it."""
+        self.wait_until(self._typing, "no field takes what is typed")
+        self.keys("ctrl+a")
+        self.type(text)
+
+    def _typing(self) -> bool:
+        """Whether the log told last that a text field has the focus."""
+        return f"\n{self.log.read_text()}".rpartition("\ntyping ")[2].startswith("on\n")
+
+    def wait_until(self, so: Callable[[], bool], otherwise: str, seconds: float = PATIENCE) -> None:
+        """Waits until something is so, while the program runs."""
+        end = time.monotonic() + seconds
+        while not so():
+            assert self.process.poll() is None, self.log.read_text()
+            assert time.monotonic() < end, f"{otherwise}: {self.log.read_text()[-2000:]}"
+            time.sleep(0.05)
 
     def stroke(self, *points: tuple[int, int]) -> None:
         """The left button drawn through screen points."""
@@ -157,8 +173,7 @@ class Program:
 
     def drag(self, start: tuple[int, int], end: tuple[int, int], steps: int = 6) -> None:
         """The left button held from one point of the screen to another, as slowly as by hand; it stays down."""
-        self.do("mousemove", *start)
-        time.sleep(0.1)
+        self.move_to(start)
         self.do("mousedown", 1)
         for i in range(1, steps + 1):
             self.do("mousemove", *(round(a + (b - a) * i / steps) for a, b in zip(start, end, strict=True)))
@@ -221,8 +236,8 @@ class Program:
 
     def click(self, at: str | Point, window: str = "") -> None:
         """A click as slow as a hand's, on a control or on a point: some look where the pointer is a frame before."""
-        self.do("mousemove", *(self.at(at, window=window) if isinstance(at, str) else at))
-        time.sleep(0.25)
+        self.move_to(self.at(at, window=window) if isinstance(at, str) else at)
+        time.sleep(0.2)  # two clicks on one thing are not a double click
         self.do("mousedown", 1)
         time.sleep(0.1)
         self.do("mouseup", 1)
@@ -232,8 +247,7 @@ class Program:
         end = time.monotonic() + seconds
         self.keys("ctrl+s")
         self.box("name", "Save as")
-        self.keys("ctrl+a")
-        self.type(str(path))
+        self.fill(str(path))
         self.keys("Return")
         while not path.exists():
             assert time.monotonic() < end, f"no {path}"

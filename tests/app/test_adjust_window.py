@@ -48,8 +48,7 @@ def test_formulas_and_curves_are_seen_and_the_view_moves_below_the_dialog(with_s
     app.click("adjustment")
     app.click("Formula")
     app.click("formula", "Adjust")
-    app.keys("ctrl+a")
-    app.type("1 - pic")
+    app.fill("1 - pic")
     app.click(app.at("Cancel", 1.3, window="Adjust"))  # leaves the field
     white = middle(app.until(lambda screen: middle(screen) is not None))
     app.drag((900, 600), (860, 620))

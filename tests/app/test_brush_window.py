@@ -24,8 +24,7 @@ def test_a_formula_written_in_the_panel_changes_paint_and_lays_none(program):
     app.click("operation")
     app.click("Formula…")
     app.click("formula")
-    app.keys("ctrl+a")
-    app.type("0 - pic * 0.7")
+    app.fill("0 - pic * 0.7")
     app.keys("Return")
     before = app.canvas(calm=8)
     assert np.array_equal(before, painted)
@@ -45,8 +44,7 @@ def test_a_brush_is_saved_under_a_name_and_there_again(program, tmp_path):
     app.keys(*["bracketright"] * 5)
     app.click("save brush")
     app.box("name")
-    app.keys("ctrl+a")
-    app.type("My pen")
+    app.fill("My pen")
     app.keys("Return")
     path = tmp_path / "config" / "inkfall" / "brushes" / "my-pen.json"
     end = time.monotonic() + 20

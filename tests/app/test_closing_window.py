@@ -6,6 +6,7 @@ import time
 
 import pytest
 from PIL import Image
+from xserver import let_keys_repeat
 
 from app.loop import _told
 from app.panels.dialogs.dialogs import EXPORT_LEVELS
@@ -32,13 +33,16 @@ def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkey
     app.keys("ctrl+e")
     app.click(app.at("Level", LEVEL_4))
     app.settled()
-    app.do("keydown", "Return")
-    time.sleep(0.7)  # longer than it takes until a key repeats
-    app.do("keyup", "Return")
+    let_keys_repeat(app.display, True)
+    try:
+        app.do("keydown", "Return")
+        time.sleep(0.7)  # longer than it takes until a key repeats
+        app.do("keyup", "Return")
+    finally:
+        let_keys_repeat(app.display, False)
     app.box("name", "Export picture")
     app.settled()
-    app.keys("ctrl+a")
-    app.type(str(tmp_path / "large.png"))
+    app.fill(str(tmp_path / "large.png"))
     app.keys("Return")
     app.until_gone("name")
     assert not list(tmp_path.rglob("untitled*")), "a held key chose a file"

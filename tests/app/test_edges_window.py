@@ -5,7 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from xserver import need, started_server
+from xserver import need, started_screen
 
 from app import theme
 
@@ -16,7 +16,7 @@ pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 def scaled():
     """A display of its own, 1.1 pixels to a point."""
     need("Xvfb", "xdotool", "xprop")
-    process, name = started_server(["Xvfb", "-screen", "0", "1440x900x24", "-noreset", "-nolisten", "tcp"])
+    process, name = started_screen("1440x900")
     words = ["xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", "Xft.dpi:\t105.6\n"]
     subprocess.run(words, check=True, env={**os.environ, "DISPLAY": name}, timeout=30)
     yield name

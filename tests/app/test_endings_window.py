@@ -4,7 +4,7 @@ import ctypes
 import time
 
 import pytest
-from xserver import need, started_server
+from xserver import need, started_screen
 
 from engine.journal.entries import listed
 
@@ -16,7 +16,7 @@ POINTER_ROOT = 1
 def server():
     """(process, display): an X server that a test may kill."""
     need("Xvfb", "xdotool")
-    process, name = started_server(["Xvfb", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp"])
+    process, name = started_screen()
     yield process, name
     process.kill()
     process.wait(10)

@@ -19,8 +19,7 @@ def films_to(program, path):
     """Chooses a file in the dialog."""
     program.click("Choose file…")
     program.box("name", "Film")
-    program.keys("ctrl+a")
-    program.type(str(path))
+    program.fill(str(path))
     time.sleep(1.0)
     program.keys("Return")
 

@@ -148,8 +148,7 @@ def test_numbers_are_typed_and_what_is_turned_back_or_mirrored_twice_is_as_it_wa
     corners = handles(app)
     for typed in ("30", "0"):
         app.click("angle field")
-        app.keys("ctrl+a")
-        app.type(typed)
+        app.fill(typed)
         app.keys("Return")
         app.park()
         app.box("sampled" if typed == "30" else "exact")

@@ -36,8 +36,7 @@ def exported(app, path):
     app.keys("ctrl+e")
     app.click("Choose file…")
     app.box("name", "Export picture")
-    app.keys("ctrl+a")
-    app.type(str(path))
+    app.fill(str(path))
     app.keys("Return")
     app.until(lambda screen: path.exists())
 

@@ -8,7 +8,7 @@ import zipfile
 import numpy as np
 import pytest
 from PIL import Image
-from xserver import started_server
+from xserver import started_screen
 
 from engine.archive.saving import MERGED
 
@@ -18,7 +18,7 @@ pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 @pytest.fixture
 def other_display(display):
-    process, name = started_server(["Xvfb", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp"])
+    process, name = started_screen()
     yield name
     process.terminate()
     process.wait(10)

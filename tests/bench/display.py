@@ -31,7 +31,7 @@ def children() -> dict[str, str]:
 def display() -> Iterator[dict[str, str]]:
     """An environment for programs that shall open their windows there."""
     read, write = os.pipe()
-    command = ["Xvfb", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp", "-displayfd", str(write)]
+    command = ["Xvfb", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp", "-r", "-displayfd", str(write)]
     server = subprocess.Popen(command, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     os.close(write)
     try:
