@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import time
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -86,7 +86,7 @@ class Window:
         self.router = Router(self.desk, self.layout)
         self.pointers = Pointers(handle)
         address = ctypes.cast(handle, ctypes.c_void_p).value or 0
-        self._callbacks = Callbacks(handle, self.router, self.pace.event, self._before_key, self._dropped)
+        self._callbacks = Callbacks(handle, self.router, self.pace.event, self._catch_up, self._dropped)
         backends.glfw_init_for_opengl(address, False)
         backends.opengl3_init("#version 330")
         self.screen = Screen(self.ctx)
@@ -154,7 +154,7 @@ class Window:
         desk, now, spare = self.desk, time.monotonic(), self._guard.spare
         seconds = self.pace.begin(now)
         self._resize()
-        self._keys_and_pointer(self.pointers.events)
+        self._catch_up()
         if self.news.take(now):
             self.pace.news(now)
         moving = desk.glide.moving
@@ -182,15 +182,12 @@ class Window:
         self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None)
         return moving or len(imgui.get_current_context().input_events_queue) > 0  # it takes one key a frame
 
-    def _before_key(self, scancode: int | None) -> None:
-        """Sees to what the pointer did before a key, or before the focus is lost: a stroke ends before what a key does
-        to it."""
-        events = self.pointers.events
-        self._keys_and_pointer(events if scancode is None else lambda: self.pointers.events_before(scancode))
-
-    def _keys_and_pointer(self, events: Callable[[], list[PenEvent]]) -> None:
-        """Sees to keys that GLFW has told, and to what the pointer did after them."""
-        found = events() if self.desk.known.presets else ()  # kept until there is a brush to paint with
+    def _catch_up(self, scancode: int | None = None) -> None:
+        """Sees to keys that GLFW has told, and to what the pointer did after them: before the key that it tells of now,
+        if there is one, as a stroke ends before what a key does to it."""
+        found: Sequence[PenEvent] = ()
+        if self.desk.known.presets:  # kept until there is a brush to paint with
+            found = self.pointers.events() if scancode is None else self.pointers.events_before(scancode)
         with self._guard.spare("on a key"):
             self._callbacks.deliver()
         for event in found:

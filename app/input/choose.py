@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import glfw
@@ -40,7 +41,7 @@ def key_times() -> KeyTimes | None:
         if glfw.get_platform() == glfw.PLATFORM_X11:
             from app.input.key_times import KeyTimes
 
-            display: Any = glfw.get_x11_display  # without types
+            display: Callable[[], int] = glfw.get_x11_display
             return KeyTimes(display())
     except (OSError, AttributeError):
         return None
