@@ -60,6 +60,14 @@ def _ants(desk: Desk, ants: Ants, _now: float) -> None:
     desk.selecting.hear(ants)
 
 
+def _resize(desk: Desk, ctx: moderngl.Context, width: int, height: int) -> None:
+    """Gives the view and the card the size that the window has, pixels."""
+    if (width, height) != (desk.view.width, desk.view.height) and width > 0 and height > 0:
+        desk.view = desk.view.resized(width, height)
+        ctx.screen.viewport = (0, 0, width, height)
+        ctx.viewport = (0, 0, width, height)
+
+
 _ANTS: dict[type, Hear] = {Ants: _ants}
 
 
@@ -153,7 +161,7 @@ class Window:
         """Takes in what happened and draws; True while something still moves."""
         desk, now, spare = self.desk, time.monotonic(), self._guard.spare
         seconds = self.pace.begin(now)
-        self._resize()
+        _resize(self.desk, self.ctx, *glfw.get_framebuffer_size(self.handle))
         self._catch_up()
         if self.news.take(now):
             self.pace.news(now)
@@ -194,14 +202,6 @@ class Window:
             self.pace.event()
             with self._guard.spare("on what the pointer did"):
                 self.router.pointer(event)
-
-    def _resize(self) -> None:
-        width, height = glfw.get_framebuffer_size(self.handle)
-        view = self.desk.view
-        if (width, height) != (view.width, view.height) and width > 0 and height > 0:
-            self.desk.view = view.resized(width, height)
-            self.ctx.screen.viewport = (0, 0, width, height)
-            self.ctx.viewport = (0, 0, width, height)
 
     def _panels(self) -> None:
         backends.opengl3_new_frame()
