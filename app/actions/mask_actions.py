@@ -13,6 +13,7 @@ from engine.painting.layering.mask_member import (
     MASK_EMPTY,
     MASK_FULL,
     MASK_INVERT,
+    MASK_LAY,
     MASK_OFF,
     MASK_ON,
     MaskOp,
@@ -77,6 +78,10 @@ def _can_apply(desk: Desk) -> bool:
 
 def _is_off(desk: Desk) -> bool:
     return desk.known.active is not None and desk.known.active.mask_off
+
+
+def _is_turned(desk: Desk) -> bool:
+    return is_masked(desk) and desk.known.active is not None and desk.known.active.mask_turned
 
 
 def toggle_off(desk: Desk) -> None:
@@ -159,6 +164,14 @@ MASK_ACTIONS: dict[str, A] = {
         toggle_off,
         is_masked,
         _is_off,
+    ),
+    "mask_lay": A(
+        "Lay mask anew",
+        "Layer/Mask",
+        (),
+        "Make pixels of a mask that was turned or scaled with the layer, to paint on it",
+        _does(MASK_LAY),
+        _is_turned,
     ),
     "mask_apply": A(
         "Apply mask",

@@ -46,6 +46,9 @@ def refused(desk: Desk) -> bool:
     if layer is not None and layer.locked and not desk.selecting.masking:
         desk.say(f"Layer “{layer.name}” is locked", bad=True)
         return True
+    if layer is not None and layer.mask_turned and desk.masks.on(layer) and not desk.selecting.masking:
+        desk.say(f"The mask of “{layer.name}” was turned or scaled with it", bad=True, offer="mask_lay")
+        return True
     return False
 
 

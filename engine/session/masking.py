@@ -17,7 +17,15 @@ from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
 from engine.painting import commands as c
 from engine.painting.grown import settled_root
-from engine.painting.layering.mask_member import MASK_APPLY, MASK_EMPTY, MASK_FULL, MASK_INVERT, MASK_OFF, MaskOp
+from engine.painting.layering.mask_member import (
+    MASK_APPLY,
+    MASK_EMPTY,
+    MASK_FULL,
+    MASK_INVERT,
+    MASK_LAY,
+    MASK_OFF,
+    MaskOp,
+)
 from engine.painting.value import Painting
 
 
@@ -81,6 +89,8 @@ def _changed(painting: Painting, name: str, op: str) -> Selection | None:
     node = layers.find(painting.root, name)
     sheet_of(node)
     assert node.mask is not None
+    if op == MASK_LAY:
+        return mask_here(node)
     if op == MASK_INVERT:
         return node.mask.inverted()
     return None if op == MASK_APPLY else replace(node.mask, off=op == MASK_OFF)

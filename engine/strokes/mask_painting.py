@@ -33,8 +33,7 @@ def sheet_for(painting: Painting, name: str | None, onto: str, what: str = "stro
     node = layers.find(painting.root, wanted)
     sheet = sheet_of(node)
     if node.mask is not None and node.mask.pose is not None:
-        turned = "found its mask turned or scaled with it, expected one that was made since"
-        raise Refusal(f"{what}: layer {wanted!r}: {turned}: select what it shows, and mask that")
+        raise Refusal(f"{what}: found the mask of {wanted!r} turned or scaled with it, expected it laid anew")
     return painting, sheet
 
 

@@ -24,7 +24,8 @@ class LayerRow:
     what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything;
     `reference`: it is no part of the picture; `height`: nor is it, being heights, of a `scale` and `sea`;
     `clip`: shown only where the one below has paint; `wrap`: the cell of which it shows repeats;
-    `masked`: it has a mask of its own, within which it is shown unless that is put aside, `mask_off`."""
+    `masked`: it has a mask of its own, within which it is shown unless that is put aside, `mask_off`; `mask_turned`:
+    it was turned or scaled with the placement, and cannot be painted on."""
 
     name: str
     group: bool
@@ -46,3 +47,4 @@ class LayerRow:
     height: bool = False
     scale: float | None = None
     sea: float | None = None
+    mask_turned: bool = False

@@ -47,6 +47,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 not isinstance(node, Group) and node.role == AS_HEIGHT,
                 node.scale if isinstance(node, Layer) else None,
                 node.sea if isinstance(node, Layer) else None,
+                mask is not None and mask.pose is not None,
             )
         )
         if isinstance(node, Group):

@@ -17,7 +17,7 @@ from engine.studio.results import LayerRow
 _HINT = (
     "Click: paint on the mask, white shows, black hides\nAlt: see it alone   Shift: mask off or on\nRight click: more"
 )
-_MORE = "select_mask", "mask_invert", "mask_off", "mask_apply", "unmask"  # actions
+_MORE = "select_mask", "mask_invert", "mask_off", "mask_lay", "mask_apply", "unmask"  # actions
 
 
 def draw(desk: Desk, row: LayerRow) -> None:

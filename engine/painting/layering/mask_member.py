@@ -7,13 +7,15 @@ from dataclasses import dataclass
 from engine.files.strict_json import Fields, is_name
 
 MASK_FULL, MASK_EMPTY, MASK_INVERT, MASK_APPLY, MASK_OFF, MASK_ON = "full", "empty", "invert", "apply", "off", "on"
-MASK_OPS = MASK_FULL, MASK_EMPTY, MASK_INVERT, MASK_APPLY, MASK_OFF, MASK_ON
+MASK_LAY = "lay"
+MASK_OPS = MASK_FULL, MASK_EMPTY, MASK_INVERT, MASK_APPLY, MASK_OFF, MASK_ON, MASK_LAY
 
 
 @dataclass(frozen=True, slots=True)
 class MaskOp:
     """What is to be done to a mask, one of MASK_OPS: one that shows all or nothing instead, what does not show shown
-    and the other way round, the paint that it hides taken off, or the mask put aside and used again."""
+    and the other way round, the paint that it hides taken off, the mask put aside and used again, or a placement's
+    laid anew where it is seen, which was turned with it."""
 
     op: str
 

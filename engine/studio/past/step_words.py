@@ -10,6 +10,7 @@ from engine.painting.layering.mask_member import (
     MASK_EMPTY,
     MASK_FULL,
     MASK_INVERT,
+    MASK_LAY,
     MASK_OFF,
     MASK_ON,
     MaskOp,
@@ -118,6 +119,7 @@ _MASK_OPS = {
     MASK_APPLY: "Apply mask of {}",
     MASK_OFF: "Mask of {} off",
     MASK_ON: "Mask of {} on",
+    MASK_LAY: "Lay mask of {} anew",
 }
 
 

@@ -183,6 +183,12 @@ def test_moved_by_whole_pixels_what_is_turned_keeps_a_mask_that_can_be_painted_o
         assert layers.find(root_of(session), "again").mask.pose is not None
     session.do(c.parse({"do": "select", "mask": "again"}))
     seen = picture(root_of(session))
+    session.do(c.parse(changed(mask={"op": "lay"})))
+    assert layers.find(root_of(session), "again").mask.pose is None
+    np.testing.assert_allclose(picture(root_of(session)), seen, atol=1 / 64)
+    np.testing.assert_array_equal(picture(root_of(replay(session.recording()))), picture(root_of(session)))
+    session.do(c.Undo())
+    np.testing.assert_array_equal(picture(root_of(session)), seen)
     session.do(c.parse(changed(mask=True)))
     np.testing.assert_allclose(picture(root_of(session)), seen, atol=1 / 64)
     session.do(c.parse({**stroke("again"), "onto": "mask"}))
