@@ -41,6 +41,8 @@ from engine.painting.layer_commands import RemoveLayer as RemoveLayer
 from engine.painting.layer_commands import RenameLayer as RenameLayer
 from engine.painting.layer_commands import SelectLayer as SelectLayer
 from engine.painting.layer_commands import SetLayer as SetLayer
+from engine.painting.layering.erode_command import Erode as Erode
+from engine.painting.layering.erode_command import read_erode, write_erode
 from engine.painting.layering.frame_command import SetFrame as SetFrame
 from engine.painting.layering.frame_command import read_frame, write_frame
 from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
@@ -139,6 +141,7 @@ Command = (
     | LayerCommand
     | SetFrame
     | SetPaper
+    | Erode
     | Undo
     | Redo
     | View
@@ -256,6 +259,7 @@ COMMANDS: dict[str, Form] = {
     "layer": Form(layer_commands.RECORDS, layer_commands.read_layer, layer_commands.write_layer),
     "frame": Form((SetFrame,), read_frame, write_frame),
     "paper": Form((SetPaper,), read_set_paper, write_set_paper),
+    "erode": Form((Erode,), read_erode, write_erode),
     "undo": Form((Undo,), _reads_count(Undo), _write_count),
     "redo": Form((Redo,), _reads_count(Redo), _write_count),
     "view": Form((View,), places.read_view, places.write_view),

@@ -39,6 +39,7 @@ from engine.painting.commands import (
 from engine.painting.guiding.guides import GuideCommand
 from engine.painting.layer_commands import LayerCommand
 from engine.painting.layer_commands import version as layer_version
+from engine.painting.layering.erode_command import Erode
 from engine.painting.layering.frame_command import SetFrame
 from engine.painting.layering.paper_command import SetPaper, read_colour
 from engine.painting.places import BookmarkCommand
@@ -52,7 +53,7 @@ TELL_LINES, TELL_BYTES = 4096, 1 << 20  # from one word about how far it is to t
 SIDE_LIMIT = 1 << 40
 DEFAULT_FRAME = Rect(0, 0, 1024, 768)
 BytesRead = Callable[[int], object] | None
-_OF_VERSION_2 = SetFrame | SetPaper | BookmarkCommand | Fill | Select | GuideCommand
+_OF_VERSION_2 = SetFrame | SetPaper | Erode | BookmarkCommand | Fill | Select | GuideCommand
 _BOM = b"\xef\xbb\xbf"
 T = TypeVar("T")
 

@@ -55,6 +55,7 @@ SAMPLES = {
     c.MergeLayer: c.MergeLayer("sky again"),
     c.SetFrame: c.SetFrame(Rect.at(-3, 4, 500, 400)),
     c.SetPaper: c.SetPaper("#e0d0b0"),
+    c.Erode: c.Erode(Rect.at(-9, 1 << 70, 40, 30), 3, "sky", 0.25, 0.75, 0.0, 9, MORE),
     c.ClearLayer: c.ClearLayer("sky"),
     c.SelectLayer: c.SelectLayer("sky"),
     c.RemoveLayer: c.RemoveLayer("cloud"),
@@ -84,6 +85,7 @@ UNDOABLE = (
     c.AddPicture,
     c.AddPictures,
     c.AddPainting,
+    c.Erode,
 )  # which need more than a layer "sky" there
 
 

@@ -1,0 +1,1 @@
+"""What changes heights as a whole: erosion, ground from files."""
