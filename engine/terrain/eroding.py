@@ -8,14 +8,13 @@ around it is levelled.  Sums, products, quotients and roots alone, in one order:
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Generator
 from dataclasses import dataclass
 
 import numpy as np
 
 from engine.numeric.kernel import kernel
 
-Tell = Callable[[float], None]
 _SCALES = 3
 _SHORTEST = 24  # samples of a side, below which no coarser grid is worth it
 _LIFE = 64  # steps of a drop
@@ -39,37 +38,39 @@ class Weather:
     seed: int = 0
 
 
-def eroded(heights: np.ndarray, weather: Weather, tell: Tell | None = None) -> np.ndarray:
-    """Returns heights (h, w), float64, in samples' sides, after that weather.  `tell` hears of the part that is done,
-    every some milliseconds, and may raise."""
+def eroded(heights: np.ndarray, weather: Weather) -> np.ndarray:
+    """Returns heights (h, w), float64, in samples' sides, after that weather."""
+    work = eroding(heights, weather)
+    while True:
+        try:
+            next(work)
+        except StopIteration as told:
+            return np.asarray(told.value)
+
+
+def eroding(heights: np.ndarray, weather: Weather) -> Generator[float, None, np.ndarray]:
+    """Works out `eroded`, which it returns; yields the part that is done, every some milliseconds."""
     grids = [np.ascontiguousarray(heights, np.float64)]
     while len(grids) < _SCALES and min(grids[-1].shape) >= 2 * _SHORTEST:
         grids.append(_halved(grids[-1]))
-    h, done, whole = grids[-1], 0.0, sum(grid.size for grid in grids)
+    h, done, whole = grids[-1], 0, sum(grid.size for grid in grids)
     for k in range(len(grids) - 1, -1, -1):
         before = grids[k]
-        if k < len(grids) - 1:
-            h = before + _doubled(h - grids[k + 1], before.shape)
-        h = h.copy()
-        _rained(h, weather, k, lambda part, k=k, done=done: tell and tell(0.9 * (done + part * grids[k].size) / whole))
-        done += before.size
-    for _ in range(_SLIDES if weather.talus is not None else 0):
+        h = before + _doubled(h - grids[k + 1], before.shape) if k < len(grids) - 1 else before.copy()
+        count = int(weather.rain * h.size)
+        for first in range(0, count, _AT_ONCE):
+            rain(h, first, min(first + _AT_ONCE, count), weather.seed * 4 + k, weather.strength)
+            yield 0.9 * (done + first / count * h.size) / whole
+        done += h.size
+    for step in range(_SLIDES if weather.talus is not None else 0):
         moved = np.zeros_like(h)
         slide(h, float(weather.talus or 0.0), moved)
         h += moved
+        yield 0.9 + 0.1 * step / _SLIDES
     for _ in range(_LEVELLED):
         h = _levelled(h)
-    if tell is not None:
-        tell(1.0)
+    yield 1.0
     return h
-
-
-def _rained(h: np.ndarray, weather: Weather, scale: int, tell: Tell) -> None:
-    count = int(weather.rain * h.size)
-    for first in range(0, count, _AT_ONCE):
-        tell(first / count)
-        last = min(first + _AT_ONCE, count)
-        rain(h, first, last, (weather.seed * 4 + scale) & 0xFFFFFFFF, weather.strength)
 
 
 def _halved(h: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting, Refusal
 from engine.session.session import Session
-from engine.terrain.eroding import Weather, eroded
+from engine.terrain.eroding import Weather, eroded, eroding
 from engine.terrain.plane import land
 
 SIDE = 64
@@ -57,18 +57,11 @@ def test_gentle_land_in_no_rain_stays():
     assert np.array_equal(before, eroded(before, Weather(0.0, 0.5, 1.0)))
 
 
-def test_whoever_asked_hears_of_it_and_may_end_it():
-    told = []
-    eroded(hill(), Weather(4.0), told.append)
+def test_it_is_worked_out_piece_by_piece():
+    told = list(eroding(hill(), Weather(4.0)))
     assert told == sorted(told)
     assert len(told) > 3
     assert told[-1] == 1.0
-
-    def ends(part):
-        raise InterruptedError
-
-    with pytest.raises(InterruptedError):
-        eroded(hill(), Weather(4.0), ends)
 
 
 def mountain(**members):
