@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.numeric.kernel import kernel
+from engine.numeric.kernel import inlined, kernel
 
 _SCALES = 3
 _SHORTEST = 24  # samples of a side, below which no coarser grid is worth it
@@ -59,7 +59,7 @@ def eroding(heights: np.ndarray, weather: Weather) -> Generator[float, None, np.
         h = before + _doubled(h - grids[k + 1], before.shape) if k < len(grids) - 1 else before.copy()
         count = int(weather.rain * h.size)
         for first in range(0, count, _AT_ONCE):
-            rain(h, first, min(first + _AT_ONCE, count), weather.seed * 4 + k, weather.strength)
+            rain(h, first, min(first + _AT_ONCE, count), weather.seed * 4 + k, weather.strength, _NEAR)
             yield 0.9 * (done + first / count * h.size) / whole
         done += h.size
     for step in range(_SLIDES if weather.talus is not None else 0):
@@ -107,23 +107,58 @@ def _levelled(h: np.ndarray) -> np.ndarray:
     return out
 
 
+def _near() -> np.ndarray:
+    """Returns how much of what a drop takes comes from the samples around it: their sum is 1."""
+    out = np.arange(-_RADIUS, _RADIUS + 1.0)
+    out = np.maximum(0.0, 1.0 - np.sqrt(out[:, None] * out[:, None] + out * out) / (_RADIUS + 0.5))
+    total = 0.0
+    for value in out.ravel().tolist():
+        total += value
+    return np.asarray(out / total)
+
+
+_NEAR = _near()
+
+
+@inlined
+def _fallen(drop: int, seed: int) -> np.uint64:
+    """Where a drop falls: two numbers of 32 bits."""
+    v = np.uint64(drop) * np.uint64(0x9E3779B97F4A7C15) + np.uint64(seed) * np.uint64(0xD1B54A32D192ED03)
+    v = (v ^ (v >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    v = (v ^ (v >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return v ^ (v >> np.uint64(31))
+
+
+@inlined
+def _sloped(h: np.ndarray, j: int, i: int, a: float, b: float) -> tuple[float, float, float]:
+    """How steep it is between four samples, to the right and down, and how high."""
+    nw, ne, sw, se = h[j, i], h[j, i + 1], h[j + 1, i], h[j + 1, i + 1]
+    gx = (ne - nw) * (1.0 - b) + (se - sw) * b
+    gy = (sw - nw) * (1.0 - a) + (se - ne) * a
+    return gx, gy, (nw * (1.0 - a) + ne * a) * (1.0 - b) + (sw * (1.0 - a) + se * a) * b
+
+
+@inlined
+def _take(h: np.ndarray, j: int, i: int, taken: float, near: np.ndarray) -> None:
+    for y in range(2 * _RADIUS + 1):
+        for x in range(2 * _RADIUS + 1):
+            h[j + y - _RADIUS, i + x - _RADIUS] -= taken * near[y, x]
+
+
+@inlined
+def _leave(h: np.ndarray, j: int, i: int, a: float, b: float, left: float) -> None:
+    h[j, i] += left * (1.0 - a) * (1.0 - b)
+    h[j, i + 1] += left * a * (1.0 - b)
+    h[j + 1, i] += left * (1.0 - a) * b
+    h[j + 1, i + 1] += left * a * b
+
+
 @kernel
-def rain(h: np.ndarray, first: int, last: int, seed: int, strength: float) -> None:
+def rain(h: np.ndarray, first: int, last: int, seed: int, strength: float, near: np.ndarray) -> None:
     """Drops first..last - 1 change heights (h, w), one after the other."""
     rows, columns = h.shape
-    weights = np.empty((2 * _RADIUS + 1, 2 * _RADIUS + 1))
-    total = 0.0
-    for y in range(-_RADIUS, _RADIUS + 1):
-        for x in range(-_RADIUS, _RADIUS + 1):
-            near = max(0.0, 1.0 - np.sqrt(x * x + y * y) / (_RADIUS + 0.5))
-            weights[y + _RADIUS, x + _RADIUS] = near
-            total += near
-    weights /= total
     for drop in range(first, last):
-        v = np.uint64(drop) * np.uint64(0x9E3779B97F4A7C15) + np.uint64(seed) * np.uint64(0xD1B54A32D192ED03)
-        v = (v ^ (v >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-        v = (v ^ (v >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-        v ^= v >> np.uint64(31)
+        v = _fallen(drop, seed)
         x = float(v & np.uint64(0xFFFFFFFF)) / 4294967296.0 * (columns - 2 * _RIM) + _RIM
         y = float(v >> np.uint64(32)) / 4294967296.0 * (rows - 2 * _RIM) + _RIM
         dx = dy = sediment = 0.0
@@ -131,10 +166,7 @@ def rain(h: np.ndarray, first: int, last: int, seed: int, strength: float) -> No
         for _ in range(_LIFE):
             i, j = int(x), int(y)
             a, b = x - i, y - j
-            nw, ne, sw, se = h[j, i], h[j, i + 1], h[j + 1, i], h[j + 1, i + 1]
-            gx = (ne - nw) * (1.0 - b) + (se - sw) * b
-            gy = (sw - nw) * (1.0 - a) + (se - ne) * a
-            here = (nw * (1.0 - a) + ne * a) * (1.0 - b) + (sw * (1.0 - a) + se * a) * b
+            gx, gy, here = _sloped(h, j, i, a, b)
             dx = dx * _INERTIA - gx * (1.0 - _INERTIA)
             dy = dy * _INERTIA - gy * (1.0 - _INERTIA)
             size = np.sqrt(dx * dx + dy * dy)
@@ -145,25 +177,16 @@ def rain(h: np.ndarray, first: int, last: int, seed: int, strength: float) -> No
             x, y = x + dx, y + dy
             if x < _RIM or y < _RIM or x >= columns - _RIM or y >= rows - _RIM:
                 break
-            i1, j1 = int(x), int(y)
-            a1, b1 = x - i1, y - j1
-            top = h[j1, i1] * (1.0 - a1) + h[j1, i1 + 1] * a1
-            low = h[j1 + 1, i1] * (1.0 - a1) + h[j1 + 1, i1 + 1] * a1
-            fall = here - (top * (1.0 - b1) + low * b1)
+            fall = here - _sloped(h, int(y), int(x), x - int(x), y - int(y))[2]
             carries = max(fall, _LEAST) * speed * water * _CARRIES
             if fall <= 0.0 or sediment > carries:
                 left = min(-fall, sediment) if fall <= 0.0 else (sediment - carries) * _LEAVES
                 sediment -= left
-                h[j, i] += left * (1.0 - a) * (1.0 - b)
-                h[j, i + 1] += left * a * (1.0 - b)
-                h[j + 1, i] += left * (1.0 - a) * b
-                h[j + 1, i + 1] += left * a * b
+                _leave(h, j, i, a, b, left)
             else:
                 taken = min((carries - sediment) * _TAKES * 2.0 * strength, fall)
                 sediment += taken
-                for oy in range(-_RADIUS, _RADIUS + 1):
-                    for ox in range(-_RADIUS, _RADIUS + 1):
-                        h[j + oy, i + ox] -= taken * weights[oy + _RADIUS, ox + _RADIUS]
+                _take(h, j, i, taken, near)
             speed = np.sqrt(max(0.01, (speed * speed + _PULL * fall) * (1.0 - _DRAG)))
             water *= 1.0 - _DRYING
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from immutables import Map
 
@@ -31,7 +30,7 @@ class Erode:
     strength: float = STRENGTH
     talus: float = TALUS
     seed: int = 0
-    extra: Map[str, Any] = Map()  # noqa: RUF009  # it never changes
+    extra: Map[str, object] = Map()  # noqa: RUF009  # it never changes
 
 
 def read_land_rect(members: Fields, shortest: int, most: int) -> tuple[int, Rect]:
@@ -57,10 +56,10 @@ def read_erode(members: Fields) -> Erode:
     )
 
 
-def write_erode(command: Erode) -> dict[str, Any]:
+def write_erode(command: Erode) -> dict[str, object]:
     """Tells its members; defaults are left out."""
     rect = command.rect
-    out: dict[str, Any] = {"rect": [command.level, rect.x0, rect.y0, rect.width, rect.height]}
+    out: dict[str, object] = {"rect": [command.level, rect.x0, rect.y0, rect.width, rect.height]}
     if command.layer is not None:
         out["layer"] = command.layer
     for name, value, usual in (
