@@ -26,8 +26,9 @@ from engine.archive.implied import needed
 from engine.archive.jobs import Job, pack_jobs
 from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.archive.others.paper_picture import paper_names, paper_pictures, with_paper
+from engine.archive.others.placement_pictures import PlacementPictures
 from engine.archive.others.spooled_png import SpooledPng
-from engine.archive.others.stack_entries import Stack, bases_of, pictured_alone, png_name
+from engine.archive.others.stack_entries import Stack, bases_of, png_name
 from engine.archive.others.stack_sums import with_sums
 from engine.archive.plot_files import PlotEntry
 from engine.archive.saving_turn import SAVING
@@ -203,9 +204,11 @@ class SavePlan:
         self._bases = bases_of(painting.root)
         for layer in layers.layers(painting.root):
             self._places[layer.id] = self._place(layer)
+        shown_root = layers.pictured(painting.root)
+        self._placed = PlacementPictures(shown_root, self._bases, self._level, self._frame)
         self._placements = list(loops.placements(painting.root))
         for placement in self._placements:
-            self._places[placement.id] = self._placed(placement)
+            self._places[placement.id] = self._placed.place(placement)
         laid = [job for layer in layers.layers(painting.root) for job in self._ground_jobs(layer)]
         stored = [job for layer in layers.layers(painting.root) for job in self._tile_jobs(layer)]
         grown = [job for layer in layers.layers(painting.root) for job in self._growth_jobs(layer)]
@@ -232,14 +235,6 @@ class SavePlan:
         place = reach(layer, self._level, self._frame)
         return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
 
-    def _placed(self, placement: Placement) -> Rect:
-        """Returns the pixels of the picture of what a placement shows: those of the frame that it may lie on."""
-        place = self._frame
-        if placement.part is not None and not placement.repeat:
-            part = placement.part
-            place = place.intersect(placement.pose.similarity.shown(part.rect, part.level, self._level))
-        return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
-
     def pictures(self) -> list[tuple[Job, IO[bytes]]]:
         """Returns the PNGs of all layers, of them together, and the thumbnail."""
         root, level, places = layers.pictured(self._painting.root), self._level, self._places
@@ -257,8 +252,7 @@ class SavePlan:
             single: list[Layer | Placement] = [layer for layer in layers.layers(root) if layer.id in self._bases]
             for node in [*self._placements, *single]:
                 png = files[png_name(node)] = SpooledPng(places[node.id], len(self._shown))
-                alone = pictured_alone(node, self._bases, root)
-                for planes in strips(alone, level, places[node.id], self._cancelled):
+                for planes in self._placed.drawn(node, places[node.id], self._cancelled):
                     png.rows(to_rgba8(planes))
             files |= paper_pictures(self._painting.paper, self._frame, len(self._shown))
             files[THUMB] = self._thumbnail()

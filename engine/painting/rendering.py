@@ -54,10 +54,13 @@ def bands(rect: Rect) -> Iterator[Rect]:
         yield Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1))
 
 
-def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Iterator[np.ndarray]:
+def strips(
+    root: Group | Planned, level: int, rect: Rect, cancelled: Stop = None, elsewhere: Read | None = None
+) -> Iterator[np.ndarray]:
     """Yields the composited picture of `rect` from the top: float32 (4, n, w) premultiplied, clamped for display;
-    the same array every time.  Cancelled is raised between pieces."""
-    pieces = _Pieces(root, level, rect, cancelled)
+    the same array every time.  Cancelled is raised between pieces.  `elsewhere`: that of `keeping`, where many pictures
+    of the same layers are made."""
+    pieces = _Pieces(root, level, rect, cancelled, elsewhere=elsewhere)
     out: np.ndarray | None = None
     for band in bands(rect):
         if out is None:
@@ -114,13 +117,22 @@ class _Pieces:
     """The pieces in which a rectangle of a level is composited: with all that belongs to one, they fit into a
     processor's caches.  Safe for several threads."""
 
-    def __init__(self, root: Group, level: int, rect: Rect, cancelled: Stop, lighting: Lighting | None = None) -> None:
-        count = sum(1 for _ in layers.layers(root))
-        self._planned, self._level, self._cancelled = Planned.of(root), level, cancelled
+    def __init__(
+        self,
+        root: Group | Planned,
+        level: int,
+        rect: Rect,
+        cancelled: Stop,
+        lighting: Lighting | None = None,
+        elsewhere: Read | None = None,
+    ) -> None:
+        root = Planned.of(root) if isinstance(root, Group) else root
+        count = sum(1 for _ in layers.layers(root.root))
+        self._planned, self._level, self._cancelled = root, level, cancelled
         self._lighting, rect = lighting, needed(rect, lighting)
         self._columns = max(128, _COLUMNS * HELD // max(HELD, count))
         self._evaluated = _Evaluated(level, rect, min(_HELD, _HELD_OF_ALL // max(1, count)))
-        self._elsewhere = keeping()
+        self._elsewhere = keeping() if elsewhere is None else elsewhere
 
     def of(self, band: Rect) -> list[Rect]:
         """Returns the pieces of a band, from the left."""
