@@ -27,8 +27,10 @@ class PlacementPictures:
         if placement.part is not None and not placement.repeat:
             part = placement.part
             place = place.intersect(placement.pose.similarity.shown(part.rect, part.level, self._level))
-        lies = self._sources.lies(placement, self._level)
-        place = place if lies is None else place.intersect(lies)
+        if self._sources.shared is not None:
+            last, inner = self._sources.end(placement)
+            lies = self._sources.shared.lies(last.of, self._level, inner.of(last))
+            place = place if lies is None else place.intersect(lies)
         return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
 
     def drawn(self, node: Layer | Placement, place: Rect, cancelled: Stop) -> Iterator[np.ndarray]:

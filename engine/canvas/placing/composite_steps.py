@@ -22,7 +22,6 @@ from engine.canvas.placing.shared.extents import Shared
 from engine.canvas.placing.through import UNPLACED, Seen, seen_first
 from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric import blend
-from engine.numeric.address import Rect
 
 _MANY = 32  # placements from which on it is looked for where what they show lies
 
@@ -180,14 +179,6 @@ class Sources:
             last, seen = self._ends[inner.id]
             self._ends[outer.id] = last, seen.through(seen_first(outer))
         return self._ends[placement.id]
-
-    def lies(self, placement: Placement, level: int) -> Rect | None:
-        """Returns a rectangle of a level outside which a placement of the tree shows nothing; None: anywhere, or where
-        there are few of them."""
-        if self.shared is None:
-            return None
-        last, inner = self.end(placement)
-        return self.shared.lies(last.of, level, inner.of(last))
 
     def step(self, node: Layer | Placement) -> CompositeStep:
         """Returns the step that lays a layer, or what a placement shows, over nothing."""
