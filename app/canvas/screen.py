@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import OrderedDict
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import moderngl
@@ -18,7 +18,7 @@ from app.canvas.lamp import Lamp
 from app.canvas.shader_files import shader_source
 from app.canvas.tile_heights import TileHeights
 from app.canvas.view import View
-from engine.light.light import BRIGHTNESS, BY_ALPHA, BY_PICTURE, RIM, Light
+from engine.light.light import BRIGHTNESS, BY_ALPHA, BY_IMPASTO, BY_PICTURE, RIM, Light
 from engine.numeric.address import Rect
 from engine.studio.requests import SCREEN_TILE
 from engine.studio.results import Patch
@@ -26,6 +26,7 @@ from engine.studio.results import Patch
 FADE = 0.13  # seconds
 ANCESTORS = 12  # levels up that are searched for something to show
 LIGHT, DARK = 0.955, 0.225  # greys of the squares where there is no paper, and of the desk around them
+_FLAT = 32768 / 65535  # of heights of impasto: where there is none
 CONTRAST = 0.045  # of the squares
 SQUARE = 16  # side of the paper's squares, pixels of the view's level
 Insets = tuple[float, float, float, float]
@@ -180,6 +181,8 @@ class Screen:
             self._set_rim(0)
             self._lamp.raise_from(_ground(light.height, plan.colour))
             self._heights.draw(plan.whole + plan.fading, self._array, light.height, view)
+            if light.height == BY_IMPASTO:  # thickness is in pixels of the level, which is magnified
+                light = replace(light, depth=light.depth * 2.0**view.fraction)
             self._lamp.show(light, target, free)
         self.ctx.scissor = None
 
@@ -281,6 +284,8 @@ class Screen:
 
 def _ground(height: str, colour: str | None) -> float:
     """Returns how high paper of a colour lies where there is nothing but it, 0 to 1."""
+    if height == BY_IMPASTO:
+        return _FLAT
     if colour is None or height not in (BY_ALPHA, BY_PICTURE):
         return 0.0
     return 1.0 if height == BY_ALPHA else sum(part * of for part, of in zip(_rgb(colour), BRIGHTNESS, strict=True))

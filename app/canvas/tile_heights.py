@@ -11,10 +11,11 @@ import numpy as np
 from app.canvas.cell_pass import CellPass, Row
 from app.canvas.shader_files import shader_source
 from app.canvas.view import View
-from engine.light.light import BRIGHTNESS, BY_ALPHA, RIM
+from engine.light.light import BRIGHTNESS, BY_ALPHA, BY_IMPASTO, RIM
 from engine.numeric.address import Rect
 
 _BRIGHT, _ALPHA, _RED_ALONE = (*BRIGHTNESS, 0.0), (0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0)
+_OF_PIXELS = {BY_ALPHA: _ALPHA, BY_IMPASTO: ()}  # which of the picture's pixels have none of
 _LAYER, _ABOVE = 4, 5  # where a row has its layers
 
 
@@ -54,9 +55,9 @@ class TileHeights:
         self._ctx.disable(moderngl.BLEND)
         for array, weights, some in (
             (self._array, _RED_ALONE, [row for row in rows if self._known(row)]),
-            (tiles, _ALPHA if height == BY_ALPHA else _BRIGHT, [row for row in rows if not self._known(row)]),
+            (tiles, _OF_PIXELS.get(height, _BRIGHT), [row for row in rows if not self._known(row)]),
         ):
-            if array is not None and some:
+            if array is not None and some and weights:
                 program["weights"] = weights
                 array.filter = tiles.filter
                 array.use(0)

@@ -38,7 +38,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
         "how far white lies above black, pixels",
     )
     parser.add_argument("--gloss", type=float, metavar="G", help="of the light, 0 to 1 (0.15)")
-    parser.add_argument("--height", metavar="LAYER|composite|alpha", help="what the relief is taken from (composite)")
+    parser.add_argument(
+        "--height", metavar="LAYER|composite|alpha|impasto", help="what the relief is taken from (composite)"
+    )
     parser.add_argument("--depth", type=int, choices=(8, 16), default=8, help="bits of each channel")
     parser.add_argument(
         "--pyramid", action="store_true", help="a .tif with its coarser levels: BigTIFF, tiles, SubIFDs"
@@ -60,11 +62,11 @@ def run(options: argparse.Namespace) -> int:
     found = opened_painting(options.painting, salvage=options.salvage)
     from engine.canvas.layers import find
     from engine.canvas.node_checks import LayerError
-    from engine.light.light import BY_ALPHA, BY_PICTURE
+    from engine.light.light import BY_ALPHA, BY_IMPASTO, BY_PICTURE
 
     for option in ("layer", "height"):
         name = getattr(options, option)
-        if name is None or (option == "height" and name in (BY_PICTURE, BY_ALPHA)):
+        if name is None or (option == "height" and name in (BY_PICTURE, BY_ALPHA, BY_IMPASTO)):
             continue
         try:
             find(found.painting.root, name)

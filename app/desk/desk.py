@@ -222,7 +222,7 @@ class Desk:
         """Returns the level of a stroke begun now, and the brush with its radius in pixels of that level."""
         level = self.view.shown_level
         held, mode = self.hand.dipped(), self.hand.stroke_mode(eraser)
-        brush = replace(held, radius=held.radius / self.view.scale(level), mode=mode.name)
+        brush = replace(held.magnified(1.0 / self.view.scale(level)), mode=mode.name)
         return level, self.examples.erasing(brush) if mode.takes_away else brush
 
 

@@ -16,7 +16,7 @@ from engine.files.fault import WriteError
 from engine.files.png_writer import PngWriter
 from engine.files.spatial.exr_writer import write_exr
 from engine.files.tiff_writer import write_tiff
-from engine.light.light import BY_ALPHA, BY_PICTURE, Light
+from engine.light.light import BY_ALPHA, BY_IMPASTO, BY_PICTURE, Light
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting.grown import settled_alone, settled_root
@@ -58,6 +58,8 @@ def shown_root(picture: Picture) -> Group:
 def lighting_of(picture: Picture) -> Lighting | None:
     """Returns the light on a picture, with the heights that it names; LayerError if there is no layer of that name."""
     light = picture.light
+    if light is not None and light.height == BY_IMPASTO:
+        return Lighting(light, heaped=picture.painting.root)
     if light is None or light.height in (BY_PICTURE, BY_ALPHA):
         return None if light is None else Lighting(light)
     return Lighting(light, folded_layers(replace(settled_alone(picture.painting.root, light.height), paper=None)))

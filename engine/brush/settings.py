@@ -7,7 +7,7 @@ paint with is decided when the brush is used (`edits.check`).  Unknown members a
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from immutables import Map
@@ -157,6 +157,11 @@ class Brush:
         """Gives the `height` that it heaps, in pixels of the stroke's level."""
         return self.radius / 4.0 if isinstance(self.height, str) else self.height
 
+    def magnified(self, by: float) -> Brush:
+        """Returns the same brush on another scale: its radius, and the heights that it lays."""
+        height = self.height if self.height is None or isinstance(self.height, str) else _within(self.height * by)
+        return replace(self, radius=self.radius * by, height=height, impasto=_within(self.impasto * by))
+
     @property
     def rgb(self) -> tuple[float, float, float]:
         """Gives the colour as three numbers 0..1."""
@@ -220,6 +225,10 @@ def _setting(name: str) -> Callable[[Any, str], float]:
 
 def _optional(read: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
     return lambda value, place: None if value is None else read(value, place)
+
+
+def _within(height: float) -> float:
+    return min(max(height, -MOST_HEIGHT), MOST_HEIGHT)
 
 
 def _height(value: object, place: str) -> Thickness:

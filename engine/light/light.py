@@ -5,10 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 AMBIENT, DIFFUSE = 0.35, 0.65  # parts of a flat place's brightness: from everywhere, and from the sun
 SHININESS = 24  # the power of the gloss; `lit_relief.py` and light.frag multiply it out
 RIM = 1  # pixels around a place whose heights its light needs
-BY_PICTURE, BY_ALPHA = "composite", "alpha"  # where heights come from, if not from a layer
+BY_PICTURE, BY_ALPHA, BY_IMPASTO = "composite", "alpha", "impasto"  # where heights come from, if not from a layer
+_DEPTH = 12.0  # pixels: the usual depth, in which impasto is as thick as it was painted
+_THICKEST = 128.0  # pixels that impasto is told of, up and down: heights 1 and 0
 BRIGHTNESS = 0.2126, 0.7152, 0.0722  # parts of red, green and blue in luminance
 LOWEST, MOST_DEPTH = 1.0, 1000.0
 
@@ -20,13 +24,14 @@ class Light:
     `azimuth`: degrees, where it stands, clockwise from the top of the picture; `altitude`: degrees above the picture,
     1 to 90; `depth`: how far white lies above black, in pixels of what is shown, whatever the level: negative where
     black lies higher; `gloss`: strength of the reflection, 0 to 1; `height`: what heights are taken from: the
-    luminance of all that is seen (`BY_PICTURE`), how much paint there is (`BY_ALPHA`), or the luminance of the layer
-    or group of that name.
+    luminance of all that is seen (`BY_PICTURE`), how much paint there is (`BY_ALPHA`), how thick it was laid
+    (`BY_IMPASTO`, whose thickness is in pixels of what is shown itself, as it is at the usual depth), or the luminance
+    of the layer or group of that name.
     """
 
     azimuth: float = 315.0
     altitude: float = 45.0
-    depth: float = 12.0
+    depth: float = _DEPTH
     gloss: float = 0.15
     height: str = BY_PICTURE
 
@@ -51,4 +56,11 @@ class Light:
     @property
     def slope(self) -> float:
         """Gives the slope where the heights of the two neighbours of a pixel differ by one."""
-        return 0.5 * self.depth
+        raised = 2.0 * _THICKEST / _DEPTH if self.height == BY_IMPASTO else 1.0
+        return 0.5 * self.depth * raised
+
+
+def height_of_thickness(pixels: np.ndarray) -> np.ndarray:
+    """Returns the heights, about 1/2, of paint so many pixels thick."""
+    out: np.ndarray = pixels * np.float32(0.5 / _THICKEST) + np.float32(0.5)
+    return out

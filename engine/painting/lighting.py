@@ -7,19 +7,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from engine.canvas.composite import Read, composite
+from engine.canvas.heaps.seen_heaps import thickness
 from engine.canvas.layers import Group
 from engine.canvas.placing.composite_steps import Planned
-from engine.light.light import BY_ALPHA, RIM, Light
+from engine.light.light import BY_ALPHA, RIM, Light, height_of_thickness
 from engine.light.lit_relief import lit, luminance
 from engine.numeric.address import Rect
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Lighting:
-    """`relief`: whose luminance the heights are; None: the picture's own."""
+    """`relief`: whose luminance the heights are; None: the picture's own.  `heaped`: the layers whose impasto they are,
+    where the light takes them from that."""
 
     light: Light
     relief: Group | Planned | None = None
+    heaped: Group | None = None
 
 
 def needed(rect: Rect, lighting: Lighting | None) -> Rect:
@@ -34,7 +37,9 @@ def pictured(root: Group | Planned, level: int, rect: Rect, read: Read, lighting
         return composite(root, level, rect, read)
     around = needed(rect, lighting)
     planes = composite(root, level, around, read)
-    if lighting.relief is not None:
+    if lighting.heaped is not None:
+        heights = height_of_thickness(thickness(lighting.heaped, level, around))
+    elif lighting.relief is not None:
         heights = luminance(composite(lighting.relief, level, around, read))
     else:
         heights = planes[3] if lighting.light.height == BY_ALPHA else luminance(planes)

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from engine.canvas.composite import composite
+from engine.canvas.heaps.seen_heaps import heaped_on
 from engine.canvas.layers import Group, Layer
 from engine.canvas.placing.cells import SeenAreas
 from engine.canvas.reading import covered, kept_planes, layer_planes
@@ -132,7 +133,7 @@ class Viewer(Owned):
             return
         pixels = results.frozen(to_premul8(picture))
         read = piece_reader(key[0], part, self._read, self._read_placed)
-        heights = self.heights.of(_seen_root(self._subject, self.looking), key[0], part, picture, read)
+        heights = self.heights.of(_seen_root(self._subject, self.looking), key[0], part, picture, read, self._heaped)
         inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
         self._subject.send(results.Patch(key, inner, pixels, revision, heights))
 
@@ -157,6 +158,12 @@ class Viewer(Owned):
         ):
             return covered(live.preview(rect).rgba, layer.growth, level, rect)
         return layer_planes(layer, level, rect, self._subject.session.cache)
+
+    def _heaped(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | float:
+        live, cache = self._subject.live, self._subject.session.cache
+        if isinstance(live, LiveStroke) and not live.empty and level == live.level and _the_same(layer, live.layer):
+            return live.heaped_on(rect)
+        return heaped_on(layer, level, rect, cache)
 
     def _read_placed(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         """As `_read`, for placements, which show the stroke in progress at coarser levels, too."""

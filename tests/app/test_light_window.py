@@ -15,12 +15,13 @@ BRUSH = {"radius": 30, "colour": "#a06040", "ink": [{"texture": "rock", "amount"
 LINES = (
     {"inkfall": 2, "frame": [0, 0, WIDTH, HEIGHT], "seed": 1, "paper": "#707880"},
     {"do": "layer", "add": "Layer 1"},
-    {"do": "stroke", "points": [[40, 50], [260, 150]], "brush": BRUSH},
+    {"do": "stroke", "points": [[40, 50], [260, 150]], "brush": {**BRUSH, "impasto": 4}},
     {"do": "layer", "add": "Land"},
     {"do": "stroke", "points": [[40, 150], [260, 50]], "brush": BRUSH},
     {"do": "layer", "set": "Land", "visible": False},
 )
-LIT = {"plain": (), "lit": ("--light", "315,45,12"), "land": ("--light", "315,45,12", "--height", "Land")}
+SUN = "--light", "315,45,12"
+LIT = {"plain": (), "lit": SUN, "land": (*SUN, "--height", "Land"), "thick": (*SUN, "--height", "impasto")}
 
 
 def places_of(picture, screen):
@@ -57,6 +58,8 @@ def test_the_window_shows_what_the_export_does(program, tmp_path):
     frame = slice(top, top + HEIGHT - 2 * EDGE), slice(left, left + WIDTH - 2 * EDGE)
     app.keys("shift+l")
     lit = app.until(lambda screen: abs(screen[frame] - pictures["lit"]).max() <= 1)
+    app.click("Impasto", window="light")
+    app.until(lambda screen: abs(screen[frame] - pictures["thick"]).max() <= 2)
     app.click("Layer", window="light")
     app.until(lambda screen: abs(screen[frame] - pictures["land"]).max() <= 1)
     exported(app, tmp_path / "window.png")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from engine.light.light import BY_ALPHA, BY_PICTURE, Light
+from engine.light.light import BY_ALPHA, BY_IMPASTO, BY_PICTURE, Light
 from engine.studio.results import Scene
 
+NO_LAYERS = BY_PICTURE, BY_ALPHA, BY_IMPASTO  # what heights are taken from, if not from a layer
 LEAST_ALTITUDE = 5.0  # degrees that the sun may be dragged down to
 
 
@@ -25,9 +26,7 @@ class LightState:
 
     def keep_to(self, scene: Scene | None) -> None:
         """Takes the heights from the picture where they were a layer's that the painting does not have."""
-        known = (
-            {BY_PICTURE, BY_ALPHA, *(row.name for row in scene.layers)} if scene is not None else {self.light.height}
-        )
+        known = {*NO_LAYERS, *(row.name for row in scene.layers)} if scene is not None else {self.light.height}
         if self.light.height not in known:
             self.light = replace(self.light, height=BY_PICTURE)
 
@@ -36,7 +35,7 @@ def height_layers(scene: Scene | None) -> tuple[str, ...]:
     """Returns what heights may be taken from by name: layers, groups and placements, from the top, but that of the role
     "height" before all others."""
     rows = () if scene is None else scene.layers
-    named = [row for row in rows if row.name not in (BY_PICTURE, BY_ALPHA)]
+    named = [row for row in rows if row.name not in NO_LAYERS]
     return tuple(row.name for row in sorted(named, key=lambda row: not row.height))
 
 

@@ -21,6 +21,7 @@ from app.panels.brush.operations import Operations
 from app.panels.brush.save_brush import SaveBrush
 from app.panels.brush.symmetry_section import SymmetrySection
 from app.panels.brush.texturing import Texturing
+from app.panels.brush.thickness_section import draw_thickness
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
 from app.panels.options.fill_options import FILL_TOOLS
@@ -178,6 +179,7 @@ class BrushPanel:
                 setting: dict[str, Any] = {name: row.clamped(round(value, 4))}
                 desk.hand.change(**setting)
 
+        draw_thickness(desk)
         hint = "How much the stroke lags behind the pen to steady the hand"
         changed, value = w.slider("Stabiliser", desk.hand.stabiliser * 100, (0.0, 100.0), hint, form="%.0f%%")
         if changed:

@@ -10,16 +10,17 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
-from app.desk.lit.light_state import height_layers, sun_at
+from app.desk.lit.light_state import NO_LAYERS, height_layers, sun_at
 from app.panels.controls import widgets as w
-from engine.light.light import BY_ALPHA, BY_PICTURE
+from engine.light.light import BY_ALPHA, BY_IMPASTO, BY_PICTURE
 
-_WIDE, _DOME = 13.5, 6.4  # ems
+_WIDE, _DOME = 16.0, 6.4  # ems
 _SHADES, _DARK, _BRIGHT = 20, 0.16, 0.62  # of the dome: how many, and greys
 _SUN = (1.0, 0.86, 0.5)
 _DEEPEST = 60.0
 _SOURCES = (
     (BY_PICTURE, "Lightness", "Light paint stands higher than dark paint"),
+    (BY_IMPASTO, "Impasto", "Thick paint stands out, and what is heaped on the layer of heights"),
     (BY_ALPHA, "Paint", "Places stand higher the more paint lies there; for paintings without paper"),
 )
 
@@ -29,7 +30,7 @@ def light_box(desk: Desk) -> tuple[float, float, float, float] | None:
     if not desk.panels or not desk.light.on:
         return None
     em, frame, gap = imgui.get_font_size(), imgui.get_frame_height(), imgui.get_style().item_spacing.y
-    rows = 4 if desk.light.light.height in (BY_PICTURE, BY_ALPHA) else 5
+    rows = 4 if desk.light.light.height in NO_LAYERS else 5
     wide, high = _WIDE * em, _DOME * em + rows * (frame + gap) + 3 * gap
     _, _, right, bottom = desk.free_area()
     margin = 4 * desk.scale
@@ -60,7 +61,7 @@ def _what_stands_high(desk: Desk) -> None:
     """What stands high: of all that is seen, or of a layer that is chosen above, where it pushes no button away."""
     state, layers = desk.light, height_layers(desk.known.scene)
     now = state.light.height
-    by_layer = now not in (BY_PICTURE, BY_ALPHA)
+    by_layer = now not in NO_LAYERS
     first = now if by_layer or not layers else layers[0]
     of_layer = (first, "Layer", "Light paint of one layer stands higher; it may be hidden, or the land's height")
     picked = None

@@ -6,18 +6,20 @@ Erasers and smoothers do to heaps what they do to paint.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from engine.brush.covered import Covered, Read
 from engine.brush.stamp import Stamp
-from engine.canvas.commit import commit
+from engine.canvas.commit import commit, preview
 from engine.canvas.evaluate import evaluate
 from engine.canvas.heaps.heaps import MOST_HEAPED, NO_HEAP, Heaps, exponent, of_scale, share
+from engine.canvas.heaps.seen_heaps import heaped_on
+from engine.canvas.layers import Layer
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
-from engine.numeric.address import TILE, TileKey
+from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.texture.planes import COLOURS, Planes
 
@@ -68,6 +70,21 @@ def edits_of(heaps: Heaps, level: int, laid: float | None, made: MadeEdit, cache
 
 def _reader(heap: Pyramid, level: int, cache: TileCache | None) -> Read:
     return lambda rect: evaluate(heap, level, rect, cache)
+
+
+def heaped_by(layer: Layer, edits: Edits, level: int, rect: Rect, cache: TileCache | None) -> np.ndarray | float:
+    """Returns what will be heaped on a layer in a rectangle of the edits' level, as `heaped_on`."""
+    out = heaped_on(replace(layer, heaps=_without(layer.heaps, edits)), level, rect, cache)
+    for unit, edit in edits.items():
+        seen = preview(layer.heaps.get(unit, NO_HEAP), edit, rect, cache)
+        out = out + np.ldexp(seen.data[0], unit + level)
+    return out
+
+
+def _without(heaps: Heaps, edits: Edits) -> Heaps:
+    for unit in edits:
+        heaps = heaps.delete(unit) if unit in heaps else heaps
+    return heaps
 
 
 def heaped(heaps: Heaps, edits: Edits, cache: TileCache | None = None) -> Heaps:

@@ -7,9 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from engine.canvas.composite import Read, composite
+from engine.canvas.heaps.seen_heaps import HeapsOf, thickness
 from engine.canvas.layers import Group, alone, find, has
 from engine.checks.owned import Owned
-from engine.light.light import BY_ALPHA, BY_PICTURE
+from engine.light.light import BY_ALPHA, BY_IMPASTO, BY_PICTURE, height_of_thickness
 from engine.light.lit_relief import luminance
 from engine.numeric.address import Rect
 from engine.painting.difference import Areas
@@ -30,14 +31,18 @@ class SeenHeights(Owned):
             if source is not None:
                 self._changed(lambda level: None)
 
-    def of(self, root: Group, level: int, part: Rect, picture: np.ndarray, read: Read) -> np.ndarray | None:
+    def of(
+        self, root: Group, level: int, part: Rect, picture: np.ndarray, read: Read, heaps_of: HeapsOf
+    ) -> np.ndarray | None:
         """Returns the heights of a rectangle: uint16 (h, w), up to WHITE_HEIGHT; None if none are wanted.
-        `picture`: what is seen there, float32 (4, h, w); `read` gives layers."""
+        `picture`: what is seen there, float32 (4, h, w); `read` gives layers, `heaps_of` what is heaped on them."""
         source = self._source
         if source is None:
             return None
         if source == BY_ALPHA:
             heights = picture[3]
+        elif source == BY_IMPASTO:
+            heights = height_of_thickness(thickness(root, level, part, heaps_of))
         elif source == BY_PICTURE or not has(root, source):
             heights = luminance(picture)
         else:
