@@ -173,10 +173,6 @@ class LiveStroke(Drawn):
         """Returns the layer's paint in `rect` at the stroke's level, as it will be."""
         return commit.preview(self.layer.pyramid, self.edit, rect, self.cache)
 
-    def heaped_on(self, rect: Rect) -> np.ndarray | float:
-        """Returns what is heaped on the layer in `rect` of the stroke's level, as it will be, in its pixels."""
-        return heaping.heaped_by(self.layer, self.heap_edits, self.level, rect, self.cache)
-
     def commit(self) -> Painting:
         """Returns the painting with the stroke on its layer."""
         if self.empty:

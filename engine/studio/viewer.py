@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from engine.canvas.composite import composite
-from engine.canvas.heaps.seen_heaps import heaped_on
+from engine.canvas.heaps.seen_heaps import HeapsOf, heaped_on
 from engine.canvas.layers import Group, Layer
 from engine.canvas.placing.cells import SeenAreas
 from engine.canvas.reading import covered, kept_planes, layer_planes
@@ -20,6 +20,7 @@ from engine.painting.rendering import piece_reader
 from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.strokes.example_stroke import Live
+from engine.strokes.live_heaps import live_heaps
 from engine.strokes.paint_stroke import LiveStroke
 from engine.studio import requests as q
 from engine.studio import results
@@ -133,7 +134,9 @@ class Viewer(Owned):
             return
         pixels = results.frozen(to_premul8(picture))
         read = piece_reader(key[0], part, self._read, self._read_placed)
-        heights = self.heights.of(_seen_root(self._subject, self.looking), key[0], part, picture, read, self._heaped)
+        heights = self.heights.of(
+            _seen_root(self._subject, self.looking), key[0], part, picture, read, _heaps_of(self._subject)
+        )
         inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
         self._subject.send(results.Patch(key, inner, pixels, revision, heights))
 
@@ -159,12 +162,6 @@ class Viewer(Owned):
             return covered(live.preview(rect).rgba, layer.growth, level, rect)
         return layer_planes(layer, level, rect, self._subject.session.cache)
 
-    def _heaped(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | float:
-        live, cache = self._subject.live, self._subject.session.cache
-        if isinstance(live, LiveStroke) and not live.empty and level == live.level and _the_same(layer, live.layer):
-            return live.heaped_on(rect)
-        return heaped_on(layer, level, rect, cache)
-
     def _read_placed(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         """As `_read`, for placements, which show the stroke in progress at coarser levels, too."""
         live, cache = self._subject.live, self._subject.session.cache
@@ -184,6 +181,18 @@ class Viewer(Owned):
 def _seen_root(subject: Subject, looking: Painting | None) -> Group:
     """Returns the layers that are seen: those of the stroke in progress, of an earlier state, or of the painting."""
     return subject.live.root if subject.live is not None else (looking or subject.session.painting).root
+
+
+def _heaps_of(subject: Subject) -> HeapsOf:
+    """Returns what reads the heaps of layers, with the stroke in progress."""
+    live, cache = subject.live, subject.session.cache
+
+    def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | float:
+        if isinstance(live, LiveStroke) and not live.empty and level == live.level and _the_same(layer, live.layer):
+            return live_heaps(live, rect)
+        return heaped_on(layer, level, rect, cache)
+
+    return read
 
 
 def _the_same(layer: Layer, painted: Layer) -> bool:

@@ -14,6 +14,7 @@ from engine.painting.commands import parse
 from engine.painting.lighting import pictured
 from engine.painting.value import Painting
 from engine.session.apply import Around, apply
+from engine.strokes.live_heaps import live_heaps
 from engine.strokes.paint_stroke import LiveStroke
 
 FRAME = Rect.at(0, 0, 192, 128)
@@ -69,7 +70,7 @@ def test_a_stroke_in_progress_is_as_thick_as_it_will_be(brush):
     after = live.commit()
     whole = Rect(30, 20, 160, 100)
     then = heaped_on(layers.find(after.root, "Layer 1"), 0, whole)
-    assert np.array_equal(live.heaped_on(whole), then)
+    assert np.array_equal(live_heaps(live, whole), then)
     assert not np.array_equal(then, heaped_on(layers.find(painting.root, "Layer 1"), 0, whole))
     assert np.array_equal(thickness(after.root, 0, whole), then)
 
