@@ -21,12 +21,17 @@ _GROWN = 64 << 20  # bytes that the process grows by before what is free of them
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
 _AGAIN = 2.0  # seconds after which it is, at the latest
 _REST = 50  # of the time that a look took, such a multiple of it
+_SOONER = 15  # where the process has grown meanwhile; as all strokes come and go by more
 
 
 def _most() -> int:
     """Returns the bytes that the process may take before it is looked after."""
-    passing = min(_PASSING, memory.budget() // _PASSING_PART)
-    return memory.budget() + memory.PROGRAM - _APART - passing
+    return memory.budget() + memory.PROGRAM - _APART - _passing()
+
+
+def _passing() -> int:
+    """Returns the bytes that may come and go at once."""
+    return min(_PASSING, memory.budget() // _PASSING_PART)
 
 
 class Room(Owned):
@@ -40,7 +45,7 @@ class Room(Owned):
         self._paging = Paging()
         self._left = 0  # bytes resident when it was looked after last
         self._looked = -_AGAIN  # when that was
-        self._pause = _AGAIN  # seconds from then to the next look
+        self._took = 0.0  # seconds, then
         self._evicted = 0  # bytes that the cache had evicted when pages were given back at rest
         self._settled = 0  # bytes resident then, or fewer since
         self._grown = False  # whether it is time for that again
@@ -72,14 +77,19 @@ class Room(Owned):
         self._paging.want(root, cache.level, max(over, 0))
         self._paging.step(_PAGED_AT_ONCE)
         self._left = memory.resident()
-        self._pause = max(_AGAIN, (time.monotonic() - self._looked) * _REST)
+        self._took = time.monotonic() - self._looked
 
     def _due(self, held: int, most: int) -> bool:
         """Tells whether it is time to look after the memory of a process that holds so many bytes: it holds too much,
         and more than it was left with, or that is some time ago.  Of what came and went since, as a save does, the
-        system had nothing back."""
+        system had nothing back: where that leaves little room, it is time at once."""
+        if held <= most:
+            return False
         now = time.monotonic()
-        if held <= most or (held <= self._left + _APART and now - self._looked < self._pause):
+        rest = max(_AGAIN, self._took * _REST)
+        if held > self._left + _APART:
+            rest = self._took * _SOONER if held <= most + _passing() // 2 else 0.0
+        if now - self._looked < rest:
             return False
         self._looked = now
         return True

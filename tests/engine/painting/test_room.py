@@ -64,6 +64,24 @@ def test_what_is_always_too_much_is_seldom_looked_after(process):
     assert 5 <= process.given <= 15
 
 
+def test_what_strokes_bring_and_leave_takes_a_small_part_of_their_time(process):
+    """Unless little room is left."""
+    room = Room(TileCache(MEGABYTE), History())
+    room._took = 1.0
+    for _ in range(100):
+        process.used, process.free = 60, 45
+        room.keep_within(Painting().root)
+        room._took = 1.0  # the look took a second
+        process.now += 1
+    assert 5 <= process.given <= 8
+    for _ in range(100):
+        process.free = 60
+        room.keep_within(Painting().root)
+        room._took = 1.0
+        process.now += 1
+    assert process.given >= 105
+
+
 def test_old_steps_are_all_coded_and_put_away_where_the_process_takes_too_much(process):
     history = History()
     room = Room(TileCache(MEGABYTE), history)
