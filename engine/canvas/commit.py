@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 Keeps = dict[tuple[int, int], Lasting]
 _AT_ONCE = 224 << 20  # bytes of the planes of an edit's bounds up to which it is worked on as one rectangle
+_CACHE_PART = 4  # but no more than such a part of what the cache may hold: several times as much comes and goes
+_LEAST_AT_ONCE = 48 << 20
 _FEW = 1 << 18  # pixels of bounds whose inks are not counted: smaller pieces would not be fewer bytes
 _SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up by itself, then all together; where much
 # ink lies smaller ones, one level up at least
@@ -62,7 +64,7 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
     records: NewRecords = {}
     painted: list[Patch] = []
     lifted: list[Patch] = []
-    if _at_once(pyramid, edit.level, tile_bounds(keys)):
+    if _is_at_once(pyramid, edit.level, tile_bounds(keys), _most(cache)):
         painted = paint(pyramid, edit, keys, cache)
         changed = _noted(painted, keeps)
         if painted:
@@ -122,8 +124,8 @@ def _by_slabs(
     changed."""
     changed, tops, rects = Rect(0, 0, 0, 0), [], [key.rect for key in keys]
     squares = _slabs(rects, _SLAB_LEVELS)
-    most = max(_bytes_of_each(len(_inks_near(pyramid, edit.level, square))) for square in squares)
-    climb = _levels_of_slabs(most)
+    each = max(_bytes_of_each(len(_inks_near(pyramid, edit.level, square))) for square in squares)
+    climb = _levels_of_slabs(each, _most(cache))
     for slab in _slabs(rects, climb):
         seen = slab.grown(_MARGIN << climb)
         painted = paint(pyramid, edit, [key for key in keys if key.rect.meets(seen)], cache, seen)
@@ -131,7 +133,7 @@ def _by_slabs(
             changed = changed.union(_noted([patch for patch in painted if patch.key.rect.meets(slab)], keeps))
             levels = climbs(pyramid, edit.level, united(patch.at for patch in painted), cache)
             tops += _climb_slab(pyramid, painted, None, levels, (slab, climb), records)
-    while _bytes_of(tops) > _AT_ONCE:
+    while _bytes_of(tops) > _most(cache):
         tops = _higher(pyramid, tops, records, cache)
     if tops:
         here, levels = _joined(pyramid, tops, cache)
@@ -139,11 +141,16 @@ def _by_slabs(
     return changed
 
 
-def _at_once(pyramid: Pyramid, level: int, rect: Rect) -> bool:
-    """Tells whether an edit of these bounds is worked on as one rectangle."""
-    if rect.area <= _FEW or rect.area * _bytes_of_each(0) > _AT_ONCE:
-        return rect.area * _bytes_of_each(0) <= _AT_ONCE
-    return rect.area * _bytes_of_each(len(_inks_near(pyramid, level, rect))) <= _AT_ONCE
+def _most(cache: TileCache | None) -> int:
+    """Returns the bytes of planes up to which bounds are worked on as one rectangle: no pixel depends on it."""
+    return _AT_ONCE if cache is None else min(_AT_ONCE, max(cache.budget // _CACHE_PART, _LEAST_AT_ONCE))
+
+
+def _is_at_once(pyramid: Pyramid, level: int, rect: Rect, most: int) -> bool:
+    """Tells whether an edit of these bounds is worked on as one rectangle, of `most` bytes of planes."""
+    if rect.area <= _FEW or rect.area * _bytes_of_each(0) > most:
+        return rect.area * _bytes_of_each(0) <= most
+    return rect.area * _bytes_of_each(len(_inks_near(pyramid, level, rect))) <= most
 
 
 def _inks_near(pyramid: Pyramid, level: int, rect: Rect) -> set[Instance]:
@@ -167,9 +174,9 @@ def _bytes_of(patches: Sequence[Patch]) -> int:
     return united(patch.at for patch in patches).area * _bytes_of_each(len(inks))
 
 
-def _levels_of_slabs(each: int) -> int:
-    """Returns how many levels each square goes up by itself, where a pixel has so many bytes."""
-    fitting = (j for j in range(_SLAB_LEVELS, 1, -1) if (TILE << j) ** 2 * each <= _AT_ONCE)
+def _levels_of_slabs(each: int, most: int) -> int:
+    """Returns how many levels each square goes up by itself, where a pixel has so many bytes and a square `most`."""
+    fitting = (j for j in range(_SLAB_LEVELS, 1, -1) if (TILE << j) ** 2 * each <= most)
     return next(fitting, 1)
 
 
@@ -183,7 +190,7 @@ def _joined(pyramid: Pyramid, patches: Sequence[Patch], cache: TileCache | None)
 
 def _higher(pyramid: Pyramid, patches: Sequence[Patch], records: NewRecords, cache: TileCache | None) -> list[Patch]:
     """Patches of one level, far apart, as those of a coarser one: square by square, as the edit itself."""
-    climb = _levels_of_slabs(_bytes_of_each(len(merged(*(patch.new.inks for patch in patches)))))
+    climb = _levels_of_slabs(_bytes_of_each(len(merged(*(patch.new.inks for patch in patches)))), _most(cache))
     squares: dict[Rect, list[Patch]] = {}
     for patch in patches:
         for slab in _slabs([patch.at], climb):

@@ -19,15 +19,17 @@ from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.canvas.selecting.mask_sheet import MaskSheet
 from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled
+from engine.keeping import memory
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
-from engine.painting.cascade import Cascade
+from engine.painting.cascade import PIXEL, Cascade
 from engine.painting.lighting import Lighting, needed, pictured
 
 _STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 64
 _SHEET_ROWS, _SHEET_COLUMNS = 256, 512  # of the pieces of sheets: those of all layers fit into a processor's caches
 _HELD, _HELD_OF_ALL = 1 << 19, 1 << 22  # pixels of a coarser level up to which it is held: of a layer, of all of them
+_HELD_PART = 16  # of the budget of memory, that one level of all layers may take
 _ELSEWHERE = 48 << 20  # bytes of what placements show that are kept
 _COLUMNS = 1024  # of the pieces in which layers are evaluated: see `_Pieces`
 _SHARING, _COARSER = 512, 3  # rows whose pieces are evaluated from one part of a level, so many levels coarser
@@ -113,6 +115,12 @@ def _joined(band: Rect, begun: Sequence[Future[tuple[Rect, np.ndarray]]]) -> np.
     return out
 
 
+def _held_of(count: int) -> int:
+    """Returns the pixels up to which a coarser level is held, of each of so many layers."""
+    all_held = min(_HELD_OF_ALL, memory.budget() // (_HELD_PART * PIXEL))
+    return min(_HELD, all_held // max(1, count))
+
+
 class _Pieces:
     """The pieces in which a rectangle of a level is composited: with all that belongs to one, they fit into a
     processor's caches.  Safe for several threads."""
@@ -131,7 +139,7 @@ class _Pieces:
         self._planned, self._level, self._cancelled = root, level, cancelled
         self._lighting, rect = lighting, needed(rect, lighting)
         self._columns = max(128, _COLUMNS * HELD // max(HELD, count))
-        self._evaluated = _Evaluated(level, rect, min(_HELD, _HELD_OF_ALL // max(1, count)))
+        self._evaluated = _Evaluated(level, rect, _held_of(count))
         self._elsewhere = keeping() if elsewhere is None else elsewhere
 
     def of(self, band: Rect) -> list[Rect]:
@@ -157,7 +165,7 @@ def sheets(
     where that is empty.  All uint8 (n, w, 4) of straight alpha.
     """
     all_layers = list(layers.layers(root))
-    evaluated = _Evaluated(level, frame, min(_HELD, _HELD_OF_ALL // max(1, len(all_layers))))
+    evaluated = _Evaluated(level, frame, _held_of(len(all_layers)))
     elsewhere, planned = keeping(), Planned.of(root)
     rows = max(16, min(_SHEET_ROWS, TOGETHER // (len(all_layers) + 1) // frame.width) & ~1)
     for y in range(frame.y0, frame.y1, rows):

@@ -151,6 +151,8 @@ class Beside(Owned):
     def _depict(self, painting: Painting, now: float) -> float:
         """Has the small picture written, if that is due; returns when it will be."""
         if not self._seen and now - self._pictured >= PICTURE_PAUSE and self._writing is None:
+            if not SAVING.free:  # both together would take more memory than there may be
+                return now + PREPARING
             self._pictured = now
             self._picture(painting)
         return math.inf if self._seen or self._writing is not None else self._pictured + PICTURE_PAUSE

@@ -294,6 +294,29 @@ def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts(limit, inks, m
     assert all((a.data == b.data).all() for (_, a), (_, b) in pairs)
 
 
+@pytest.mark.parametrize(("budget", "most"), [(1 << 20, 48 << 20), (240 << 20, 60 << 20)])
+def test_the_less_room_there_is_the_smaller_are_the_rectangles_of_an_edit(budget, most, monkeypatch):
+    import engine.canvas.commit as module
+
+    areas = []
+
+    class Seen(Exception):
+        pass
+
+    def climbs(pyramid, level, rect, cache):
+        areas.append(rect.area)
+        raise Seen
+
+    monkeypatch.setattr(module, "climbs", climbs)
+    least = int((most / 16) ** 0.5) // 128 * 128
+    for side in (least, least + 128):
+        edit = ArrayEdit(0, 0, 0, np.ones((side, side), np.float32), np.ones((4, side, side), np.float32))
+        with pytest.raises(Seen):
+            commit(Pyramid(), edit, TileCache(budget))
+    assert areas[0] == least**2
+    assert 16 * areas[1] <= most
+
+
 @pytest.mark.parametrize("with_cache", [False, True])
 def test_tiles_worked_out_a_few_at_a_time_are_those_worked_out_together(with_cache, monkeypatch):
     """However many of them are: where much ink lies they are few, as all together take hundreds of megabytes."""
