@@ -150,7 +150,7 @@ class _Opening:
         root, other = self._layers(manifest, members, sources)
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
         textures = manifest.textures_with(sources)
-        read = partial(self._tiles, members=members, sources={})
+        read = partial(self._tiles, members=members, sources=sources)
         chosen = selection_files.with_tiles_of(manifest.selections, manifest.grid, read, self._levels)
         painting = manifest.painting(root, textures, chosen)
         recording, lost = self._recording()

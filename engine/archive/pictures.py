@@ -33,8 +33,9 @@ def sources(painting: Painting) -> dict[str, ImageSource]:
         for plot in layer.growth:
             about = plot_files.origin(plot)
             grown += [replace(source, name=plot.name) for source in (about.source, about.mask) if source is not None]
-        for _, record in layer.pyramid.all_records():
-            inks.update(record.inks)
+        for pyramid in (layer.pyramid, *layer.heaps.values()):
+            for _, record in pyramid.all_records():
+                inks.update(record.inks)
     named = [source for texture in painting.textures.values() for source in (texture.source, texture.mask)]
     found = _collected(grown) | _collected(named) | _collected(getattr(ink, "source", None) for ink in inks)
     return dict(sorted(found.items()))

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from engine.brush import edits
+from engine.brush.covered import Covered, Read
+from engine.brush.ink import Ink
 from engine.brush.mask import Coverage
 from engine.brush.modes import HEAPS_UP
 from engine.brush.settings import Brush
@@ -30,12 +32,17 @@ class HeapPlan:
     laid: float | None
     only: bool
 
-    def edits(self, layer: Layer, brush: Brush, coverage: Coverage, cache: TileCache | None) -> heaping.Edits:
+    def edits(
+        self, layer: Layer, brush: Brush, coverage: Coverage, ink: Ink | None, cache: TileCache | None
+    ) -> heaping.Edits:
         """Returns the edits of the layer's heaps by a stroke that covers so much."""
         made = edits.class_of(brush.mode)
-        return heaping.edits_of(
-            layer.heaps, coverage.level, self.laid, lambda read: made(coverage, brush, None, False, read), cache
-        )
+        rough = ink if self.only else None
+
+        def edit(read: Read) -> Covered:
+            return made(coverage, brush, None, False, read)
+
+        return heaping.edits_of(layer.heaps, coverage.level, self.laid, edit, rough, cache)
 
 
 def heap_plan(brush: Brush, layer: Layer) -> HeapPlan | None:

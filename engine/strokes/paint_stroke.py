@@ -147,7 +147,7 @@ class LiveStroke(Drawn):
             plan, covered, thinning = self._plan, self._mask, self._thinning
             if plan is not None:
                 whole = thinning.over(covered.coverage())
-                self._heap_edits = plan.edits(self.layer, self.brush, whole, self.cache)
+                self._heap_edits = plan.edits(self.layer, self.brush, whole, self._ink, self.cache)
                 self._edit = Untouched(self.level) if plan.only else self._painted(whole, None)
             else:
                 self._edit = self._painted(covered, thinning)

@@ -58,7 +58,9 @@ def found_selections(entries: Sequence[SelectionEntry], remains: Remains, root: 
 def _pyramid(entry: SelectionEntry, remains: Remains, grid: int) -> tuple[Pyramid | None, int]:
     """Returns the levels that are whole, None where none is, and how many tiles are missing."""
     rest = remains.tiles(tuple(entry.packs))
-    plain = [(key, record) for key, record, implied in rest.tiles if not (record.inks or implied)]
+    plain = [
+        (key, record) for key, record, implied in rest.tiles if entry.heaps is not None or not (record.inks or implied)
+    ]
     missing = rest.missing + len(rest.tiles) - len(plain)
     if missing:
         plain = [] if rest.first is None else [(key, record) for key, record in plain if key.level < rest.first]

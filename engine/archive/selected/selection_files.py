@@ -178,12 +178,12 @@ def with_tiles_of(
     tiles: Callable[[Packs], Iterator[Coded]],
     levels: Callable[[Sequence[Coded]], Mapping[int, dict[tuple[int, int], Record]]],
 ) -> Chosen:
-    """Returns selections of a file; `tiles` reads packs, `levels` lays them out.  One with ink, which none has, is
-    refused by FieldError."""
+    """Returns selections of a file; `tiles` reads packs, `levels` lays them out.  One with ink, which none has but
+    a heap, is refused by FieldError."""
     chosen, saved, masks, heaps = None, dict[str, Selection](), dict[int, Selection](), dict[int, Heaps]()
     for entry in entries:
         found = list(tiles(entry.packs))
-        if any(record.inks or implied for _, record, implied in found):
+        if entry.heaps is None and any(record.inks or implied for _, record, implied in found):
             raise FieldError("selections", "ink", "tiles without ink")
         own = FINE if entry.heaps is not None else grid
         pyramid = with_tiles(Pyramid(grid=own, commits=entry.commits), dict(levels(found)))

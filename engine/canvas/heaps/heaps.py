@@ -20,6 +20,7 @@ from engine.numeric.address import Rect
 Heaps = immutables.Map[int, Pyramid]
 NO_HEAPS: Heaps = immutables.Map()
 NO_HEAP = Pyramid()
+MOST_INK = 2.0  # likewise of an ink's amplitude
 MOST_HEAPED = 8.0  # units: the most that lies in a heap; up to there all sums are exact
 _ROOM, _APART = 2, 4  # bits of room above a stroke's height; heaps are so many octaves apart
 _OWN = 14  # octaves of its own pixels that the unit of what a stroke touches may have, at most

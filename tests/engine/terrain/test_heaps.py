@@ -219,3 +219,36 @@ def test_a_height_that_cannot_be_is_refused(name, found):
 def test_a_recording_that_heaps_is_one_of_version_2():
     assert version_of(parse(stroke(0))) == version_of(parse(stroke(0, height=None, impasto=1))) == 2
     assert version_of(parse(stroke(0, height=None, impasto=0))) == 1
+
+
+INK = [
+    {"texture": "rock", "amount": 0.6, "colour": "#ffffff", "period": 6, "roughness": 0.9, "renew": False, "seed": 3}
+]
+
+
+@pytest.mark.parametrize("level", [0, 8, 16])
+def test_ink_makes_a_stone_rough_at_any_depth(ground, level, tmp_path):
+    told = stroke(level, radius=24, colour="#000000", ink=INK)
+    painting = apply(ground, parse(told), Around())
+    x, y = at(level)
+    fine = Rect((x << 6) - 30, (y << 6) - 30, (x << 6) + 30, (y << 6) + 30)
+    rough, smooth = (
+        heights(one, level + 6, fine) for one in (painting, apply(ground, parse(stroke(level, radius=24)), Around()))
+    )
+    assert np.abs(np.diff(rough, 2)).max() > 20 * np.abs(np.diff(smooth, 2)).max()
+    seen = land(painting, "Layer 1")
+    part = Rect(fine.x0 + 7, fine.y0 + 3, fine.x0 + 30, fine.y0 + 44)
+    assert np.array_equal(seen.height(level + 6, part), seen.height(level + 6, fine)[part.slices(fine)])
+    save(tmp_path / "stone.ora", Snapshot(painting))
+    again = open_painting(tmp_path / "stone.ora").painting
+    assert np.array_equal(heights(again, level + 6, fine), rough)
+
+
+def test_a_heap_is_full_at_some_time(ground):
+    painting = ground
+    for _ in range(40):
+        painting = apply(painting, parse(stroke(4, height=3.9, ink=INK, hardness=1, radius=8)), Around())
+    (heap,) = layers.find(painting.root, "Layer 1").heaps.values()
+    data = evaluate(heap, 4, window(4)).data
+    assert data[0].max() == 8.0
+    assert np.abs(data[4:]).max() == 2.0
