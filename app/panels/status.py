@@ -19,6 +19,10 @@ from engine.studio.held.held_records import Held
 from engine.studio.results import Opening
 
 _LEVEL = "The level of detail shown and painted on; each level is twice as fine.  Click to type or copy a place"
+_LAND = (
+    "Wheel: fly there.  Middle button or Space: turn.  Right button: look around.  Tools work where they meet the land"
+)
+_ERROR = "How far the land may lie from where it is drawn, at most, in pixels of the window"
 _NARROW = 70.0  # ems of a line in which a notice needs the room of what can wait
 _MEGABYTE = 1 << 20
 _PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
@@ -81,6 +85,8 @@ def _left(desk: Desk, right: float) -> None:
             if desk.hand.erasing
             else "Paint what is selected, erase what is not; colours do not count"
         )
+    elif desk.land.on:
+        imgui.text_disabled(_LAND)
     else:
         tool = TOOLS[desk.hand.tool]
         hint = tool.hint if tool.told is None else tool.told(desk)
@@ -194,6 +200,8 @@ def _fields(desk: Desk, pointer_name: str, crowded: bool = False) -> list[tuple[
         out.append(
             (f"{turned} {'mirrored' if view.mirrored else ''}".strip(), "How the view is turned (5: upright)", 0.0, "")
         )
+    if desk.land.on:
+        out.append((desk.land.error_text(), _ERROR, 0.0, ""))
     out += [
         (f"Level {view.shown_level}", _LEVEL, 4.2, "type_place"),
         (zoom_text(view.level, view.fraction), "How much the painting is magnified (F: fit, 1: one to one)", 6.5, ""),

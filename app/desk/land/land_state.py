@@ -14,7 +14,7 @@ from engine.numeric.address import Rect
 from engine.studio.land.land_records import StillCome
 from engine.terrain.seen.choosing import FINEST, LandSight
 from engine.terrain.seen.eye import Eye, as_fraction, place_kept
-from engine.terrain.seen.land_tiles import FINER, LandTile, TileKey
+from engine.terrain.seen.land_tiles import LandTile, TileKey
 from engine.terrain.seen.meeting import Hit, ground_under, met
 
 MOST_HELD = 200 << 20  # bytes of tiles
@@ -181,18 +181,11 @@ class LandState:
         elif seconds < QUICK:
             self.texel = max(LEAST_TEXEL, self.texel * 0.985)
 
-    def error(self) -> float | None:
-        """Returns by how many pixels of the window the land may lie elsewhere than it is drawn, at most; None where
-        that is not known.  Each tile is no nearer than its level ends the next finer one."""
-        if self.eye is None or not self.drawn:
-            return None
-        pixel, worst = self.eye.pixel(self.size[0]), 0.0
-        for key in self.drawn:
-            one = self.kept.get(key)
-            if one is None or one.tile.error is None:
-                return None
-            worst = max(worst, one.tile.error / (math.ldexp(1.0, -key.level - FINER) / (self.texel * pixel)) / pixel)
-        return worst
+    def error_text(self) -> str:
+        """Tells by how many pixels of the window the picture at rest may be wrong, at most; nothing where that is not
+        known."""
+        error = None if self.still is None else self.still.error
+        return "" if error is None else f"error at most {max(error, 0.1):.1f} px"
 
     def forget(self) -> None:
         """Another painting is to be seen, or none."""

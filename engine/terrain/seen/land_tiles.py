@@ -54,8 +54,7 @@ class LandTile:
     """`heights` float32 (QUADS + 1, QUADS + 1, 2): each corner's own and the coarser one's that it moves onto, units of
     2^-UNIT pixels of the level above `base` of them; `low`, `high`: of these.  `surface` float32 (TEXELS + 1,
     TEXELS + 1): corners of the texels' level, in pixels of the tile's level above the base.  `colours` uint8 (n, n, 3):
-    roots of lit colours over BRIGHTEST, with TEXEL_RIM texels around.  `error`: pixels of level 0 by which the land may
-    lie elsewhere than `surface`; None where that is not known."""
+    roots of lit colours over BRIGHTEST, with TEXEL_RIM texels around."""
 
     key: TileKey
     base: int
@@ -64,7 +63,6 @@ class LandTile:
     high: float
     surface: np.ndarray
     colours: np.ndarray
-    error: float | None
 
     @property
     def held(self) -> int:

@@ -37,11 +37,8 @@ class TileMaker:
         heights = (heights - base).astype(np.float32)
         fine, colours = self._texels(key)
         above = in_pixels(fine, key.level) - base * 2.0**-UNIT
-        bound = self.land.bound(key.level + FINER, _inner(key))
         low, high = min(0.0, float(above.min()) * 2**UNIT), max(float(heights.max()), float(above.max()) * 2**UNIT)
-        return LandTile(
-            key, base, heights, low, high, above.astype(np.float32), colours, None if bound is None else bound.hard
-        )
+        return LandTile(key, base, heights, low, high, above.astype(np.float32), colours)
 
     def _corners(self, level: int, rect: Rect) -> np.ndarray:
         """Returns heights, in pixels of level 0, of corners of a level: those of `rect`'s pixels and what ends it."""
