@@ -6,6 +6,7 @@ import argparse
 import re
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,6 +18,7 @@ from app.cli.progress import Progress
 if TYPE_CHECKING:
     from engine.film.aim import Aim
     from engine.numeric.address import Rect
+    from engine.painting.outlook import Outlook
     from engine.painting.places import Bookmarks
     from engine.painting.recording import Recording
     from engine.painting.value import Painting
@@ -59,6 +61,7 @@ def run(options: argparse.Namespace) -> int:
     places, size = _places(options, source)
     making = None if source.recording is None else making_of(source.recording)
     film = Film(places, size, options.fps, options.seconds, making, options.clock, options.undone, options.brush)
+    film = replace(film, outlooks=() if replays else _outlooks(options, source.bookmarks))
     shooting, note = writable(options.out, Shooting(film, source.painting))
     if note:
         print(f"inkfall: {options.out}: {note}", file=sys.stderr)
@@ -116,11 +119,24 @@ def _places(options: argparse.Namespace, source: _Source) -> tuple[tuple[Aim, ..
     return (aim_at(level, rect, size), *ends), size
 
 
+def _outlooks(options: argparse.Namespace, bookmarks: Bookmarks) -> tuple[Outlook, ...]:
+    """Returns where the film stands in the land, if all bookmarks that it goes through were made there."""
+    if options.rect is not None:
+        return ()
+    told = [name for words in options.flight for name in _names(words, bookmarks)]
+    found = [bookmarks[name].outlook if name in bookmarks else None for name in told]
+    return tuple(outlook for outlook in found if outlook is not None) if None not in found else ()
+
+
+def _names(words: str, bookmarks: Bookmarks) -> list[str]:
+    return list(bookmarks) if words == "all" else [words] if words in bookmarks else words.split(",")
+
+
 def _ends(words: str, bookmarks: Bookmarks, size: tuple[int, int]) -> list[Aim]:
     """Returns where `--flight` leads."""
     from engine.film.aim import aim_at, aim_of
 
-    names = list(bookmarks) if words == "all" else [words] if words in bookmarks else words.split(",")
+    names = _names(words, bookmarks)
     if names and all(name in bookmarks for name in names):
         return [aim_of(bookmarks[name], size) for name in names]
     try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 from app.desk.desk import Desk, Hear
@@ -10,6 +11,7 @@ from app.desk.land.land_state import first_eye
 from engine.studio import results
 from engine.studio.land.land_records import AskGround, AskLand, AskStill, GroundFound, LandMade, StillCome
 from engine.terrain.seen.choosing import choose_tiles
+from engine.terrain.seen.eye import Eye, place_kept
 
 ASKED_AT_ONCE = 48  # tiles that are asked for at a time
 RESTS_AFTER = 0.25  # seconds without a move after which the picture at rest is asked for
@@ -59,9 +61,11 @@ class LandWants:
         """Asks how high the ground is that lies in the middle of the canvas."""
         state = desk.land
         if state.asked is None:
-            place = desk.view.to_canvas(*desk.middle())
-            by = 1 << place.exponent if place.exponent >= 0 else 1
+            place, stands = desk.view.to_canvas(*desk.middle()), state.stands
+            by = 1 << place.exponent
             ask = AskGround(Fraction(place.x, by), Fraction(place.y, by), desk.view.shown_level)
+            if stands is not None:
+                ask = AskGround(*stands.place(), stands.level)
             state.asked = ask
             self._asked = (ask,)
             desk.post(ask)
@@ -99,6 +103,12 @@ class LandWants:
     def _ground(self, desk: Desk, found: GroundFound, now: float) -> None:
         state = desk.land
         if found.asked is not state.asked or not state.on:
+            return
+        stands, state.stands = state.stands, None
+        if stands is not None:
+            state.clear = math.ldexp(stands.height, -stands.level)
+            x, y = (place_kept(place) for place in stands.place())
+            state.look(Eye(x, y, found.z + state.clear, stands.turn % 360.0, stands.tilt, stands.fov), now)
             return
         view = desk.view
         wide = _WIDE * state.size[0] / view.scale(0)

@@ -16,10 +16,12 @@ from engine.film.aim import Aim
 from engine.film.beats import Beat, beats, seen_from
 from engine.film.closing import others
 from engine.film.course import flight, legs_through, length
+from engine.film.land_flight import land_frames
 from engine.film.replaying import Making, Replaying
 from engine.film.sheets import Parts, Sheets, plan
 from engine.numeric.askew import Askew, write_askew
 from engine.numeric.convolution import Part, write_scaled
+from engine.painting.outlook import Outlook
 from engine.painting.rendering import folded_layers
 from engine.painting.value import Painting
 
@@ -37,7 +39,7 @@ class Film:
 
     `places`: the views that it flies through, at least one; `making`: the painting is made again, by `clock` (one of
     `beats.CLOCKS`), with what was `undone` and the `brush` or without; None: it is seen as it is; `seconds`: None for
-    as long as it takes.
+    as long as it takes.  `outlooks`: one for each place: the land is seen from there, not the canvas.
     """
 
     places: tuple[Aim, ...]
@@ -48,6 +50,7 @@ class Film:
     clock: str = "strokes"
     undone: bool = False
     brush: bool = False
+    outlooks: tuple[Outlook, ...] = ()
 
 
 class Shooting:
@@ -91,6 +94,9 @@ class Shooting:
             aims = self.aims()
             if self._film.making is None:
                 assert self._painting is not None
+                if self._film.outlooks:
+                    yield from land_frames(self._painting, self._film.outlooks, self._film.size, self.count)
+                    return
                 painting = replace(self._painting, root=folded_layers(layers.pictured(self._painting.root)))
                 ahead = stack.enter_context(ThreadPoolExecutor(1, "inkfall film ahead"))
                 sheets = Sheets(plan(aims, self._film.size, others(aims, painting.root)), pool, ahead)

@@ -19,6 +19,7 @@ from engine.checks.field_error import FieldError
 from engine.checks.values import is_number
 from engine.files.strict_json import Fields
 from engine.numeric.scaling import scaled
+from engine.painting.outlook import Outlook, read_outlook, write_outlook
 from engine.painting.points import plain
 
 LEVEL_LIMIT = 4096  # a level beyond this has more digits than a painting needs
@@ -45,7 +46,7 @@ class Bookmark:
     """A place to come back to, under a name; one of this name that there is takes this place.
 
     The rectangle is seen as large as the screen allows, turned clockwise by `angle` degrees about its middle, and with
-    its left and right swapped where it is `mirrored`.
+    its left and right swapped where it is `mirrored`.  `outlook`: where it stands in the land, if it was made there.
     """
 
     name: str
@@ -55,6 +56,7 @@ class Bookmark:
     angle: float = 0.0
     mirrored: bool = False
     extra: Extra = _NOTHING
+    outlook: Outlook | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +142,8 @@ def read_bookmark(members: Fields) -> BookmarkCommand:
     if not all(size):
         raise members.fault("size", "numbers above 0")
     angle, mirrored = members.number("angle", 0.0, lo=-360.0, hi=360.0), members.flag("mirror", False)
-    return Bookmark(name, level, origin, size, angle, mirrored, members.rest())
+    outlook = read_outlook(members)
+    return Bookmark(name, level, origin, size, angle, mirrored, members.rest(), outlook)
 
 
 def write_bookmark(command: BookmarkCommand) -> dict[str, object]:
@@ -154,6 +157,7 @@ def write_bookmark(command: BookmarkCommand) -> dict[str, object]:
         out |= {"level": plain(command.level), "origin": list(command.origin), "size": list(command.size)}
         out |= {"angle": plain(command.angle)} if command.angle else {}
         out |= {"mirror": True} if command.mirrored else {}
+        out |= {} if command.outlook is None else write_outlook(command.outlook)
     return {**out, **thawed(command.extra)}
 
 

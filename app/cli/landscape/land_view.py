@@ -116,6 +116,11 @@ def _camera(words: tuple[str, ...], land: Land, pixels: tuple[int, int]) -> Came
 
     name = ",".join(words)
     mark = land.painting.bookmarks.get(name)
+    if mark is not None and mark.outlook is not None:
+        seen = mark.outlook
+        return Camera(
+            seen.level, Fraction(seen.x), Fraction(seen.y), seen.height, seen.turn % 360.0, seen.tilt, seen.fov
+        )
     if mark is not None:
         level = math.floor(mark.level)
         by = 2.0 ** (level - mark.level)

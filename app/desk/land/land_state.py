@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.painting.outlook import Outlook
 from engine.studio.land.land_records import StillCome
 from engine.terrain.seen.choosing import FINEST, LandSight
 from engine.terrain.seen.eye import Eye, as_fraction, place_kept
@@ -40,7 +41,8 @@ class LandState:
     """`on`: the canvas shows land; `eye`: None until the height of the ground is known; `asked`: what was asked for it;
     `kept`: tiles, the longest unused first; `drawn`: those of the last picture, nearest first; `room`: left, top, width
     and height of the picture in the window; `changed`: it is to be drawn again; `moved`: when the eye last did;
-    `still`: the picture at rest, `number`: of the one that is wanted; `triangles`, `took`: of the last picture."""
+    `still`: the picture at rest, `number`: of the one that is wanted; `triangles`, `took`: of the last picture;
+    `stands`: where the eye is to be as soon as the ground below it is known."""
 
     on: bool = False
     eye: Eye | None = None
@@ -61,6 +63,7 @@ class LandState:
     left: float = 0.0  # of the way to the goal, powers of two
     held: int = 0  # bytes of tiles
     clear: float = 1.0
+    stands: Outlook | None = None
 
     @property
     def size(self) -> tuple[int, int]:
@@ -81,6 +84,22 @@ class LandState:
             self.clear = max(eye.z - under, least)
         self.eye, self.moved, self.changed = eye, now, True
         self.still = None
+
+    def stand(self, outlook: Outlook) -> None:
+        """Goes to where a bookmark looks from."""
+        self.on, self.stands = True, outlook
+        self.eye = self.asked = None
+
+    def outlook_here(self) -> Outlook | None:
+        """Returns what a bookmark tells of where the eye is; None where the canvas is seen."""
+        eye = self.eye
+        if eye is None or not self.on:
+            return None
+        under = ground_under((kept.tile for kept in self.kept.values()), eye.x, eye.y)
+        high = max(eye.z - under, 1e-12) if under is not None else self.clear
+        level = max(0, math.ceil(-math.log2(high)) + 10)
+        by = 1 << level
+        return Outlook(level, round(eye.x * by), round(eye.y * by), high * by, eye.azimuth, eye.tilt, eye.fov)
 
     def _least(self) -> float:
         """Returns how near the ground the eye may come."""
@@ -192,7 +211,7 @@ class LandState:
         self.kept.clear()
         self.drawn, self.still, self.goal, self.left = [], None, None, 0.0
         self.held, self.changed = 0, True
-        self.eye = self.asked = None
+        self.eye = self.asked = self.stands = None
 
 
 def first_eye(x: Fraction, y: Fraction, z: float, wide: float, azimuth: float) -> Eye:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.canvas.standpoint import Size, Standpoint, standpoint_at
 from app.canvas.view import place_of_pixel
 from app.desk.desk import Desk
@@ -49,7 +51,11 @@ def step(desk: Desk, by: int) -> None:
 
 
 def go_to_bookmark(desk: Desk, bookmark: Bookmark) -> None:
-    """Flies to a bookmark."""
+    """Flies to a bookmark; into the land, if it was made there."""
+    if bookmark.outlook is not None:
+        desk.land.stand(bookmark.outlook)
+        return
+    desk.land.on = False
     go(desk, standpoint_at(bookmark, free_size(desk)))
 
 
@@ -59,7 +65,7 @@ def bookmark_here(desk: Desk, name: str) -> Bookmark | None:
     if abs(there.level) >= LEVEL_LIMIT:
         desk.say(f"Bookmarks lie on levels from -{LEVEL_LIMIT} to {LEVEL_LIMIT}", bad=True)
         return None
-    return there.bookmark(name, free_size(desk))
+    return replace(there.bookmark(name, free_size(desk)), outlook=desk.land.outlook_here())
 
 
 def go_to_spot(desk: Desk, spot: Spot) -> None:

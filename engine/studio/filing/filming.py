@@ -89,7 +89,9 @@ class Filming(Owned):
         frame = self._easel.session.painting.frame
         places = tuple(aim_of(place, wish.size) for place in wish.places) or (aim_at(0, frame, wish.size),)
         making = None if recording is None else making_of(recording)
-        return Film(places, wish.size, wish.fps, wish.seconds, making, wish.clock, wish.undone, wish.brush)
+        told = [place.outlook for place in wish.places] if making is None else [None]
+        outlooks = tuple(one for one in told if one is not None) if None not in told else ()
+        return Film(places, wish.size, wish.fps, wish.seconds, making, wish.clock, wish.undone, wish.brush, outlooks)
 
     def _preview(self, request: PreviewFilm) -> None:
         wish = request.wish
