@@ -11,6 +11,7 @@ from app import icons, theme
 from app.actions.actions import ACTIONS, perform
 from app.canvas.view import zoom_text
 from app.desk.desk import Desk
+from app.desk.land.land_state import error_text
 from app.panels import notice_line, selection_chip
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
@@ -201,7 +202,7 @@ def _fields(desk: Desk, pointer_name: str, crowded: bool = False) -> list[tuple[
             (f"{turned} {'mirrored' if view.mirrored else ''}".strip(), "How the view is turned (5: upright)", 0.0, "")
         )
     if desk.land.on:
-        out.append((desk.land.error_text(), _ERROR, 0.0, ""))
+        out.append((error_text(desk.land), _ERROR, 0.0, ""))
     out += [
         (f"Level {view.shown_level}", _LEVEL, 4.2, "type_place"),
         (zoom_text(view.level, view.fraction), "How much the painting is magnified (F: fit, 1: one to one)", 6.5, ""),

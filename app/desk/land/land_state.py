@@ -200,12 +200,6 @@ class LandState:
         elif seconds < QUICK:
             self.texel = max(LEAST_TEXEL, self.texel * 0.985)
 
-    def error_text(self) -> str:
-        """Tells by how many pixels of the window the picture at rest may be wrong, at most; nothing where that is not
-        known."""
-        error = None if self.still is None else self.still.error
-        return "" if error is None else f"error at most {max(error, 0.1):.1f} px"
-
     def forget(self) -> None:
         """Another painting is to be seen, or none."""
         self.kept.clear()
@@ -227,3 +221,10 @@ def first_eye(x: Fraction, y: Fraction, z: float, wide: float, azimuth: float) -
         TILT,
         FOV,
     )
+
+
+def error_text(state: LandState) -> str:
+    """Tells by how many pixels of the window the picture at rest may be wrong, at most; nothing where that is not
+    known."""
+    error = None if state.still is None else state.still.error
+    return "" if error is None else f"error at most {max(error, 0.1):.1f} px"
