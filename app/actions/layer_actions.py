@@ -106,6 +106,10 @@ def _is_height(desk: Desk) -> bool:
     return row is not None and row.height
 
 
+def _has_land(desk: Desk) -> bool:
+    return ready(desk) and desk.known.scene is not None and any(row.height for row in desk.known.scene.layers)
+
+
 def _toggle_height(desk: Desk) -> None:
     desk.post(Do(c.SetLayer(active(desk), role="" if _is_height(desk) else AS_HEIGHT)))
 
@@ -158,6 +162,10 @@ LAYER_ACTIONS: dict[str, A] = {
         _toggle_height,
         _can_be_reference,
         _is_height,
+    ),
+    "erode": A(
+        "Erode…", "Layer", (), "Let rain cut gullies into the land in view",
+        lambda desk: desk.asked.show("erode"), _has_land,
     ),
     "raise": A("Move up", "Layer/Move", ("Ctrl+PageUp",), "Move the layer up", _moves(1), chosen),
     "lower": A("Move down", "Layer/Move", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), chosen),

@@ -16,6 +16,7 @@ from engine.numeric.address import Rect
 from engine.painting.layering.placing_members import Placing
 from engine.studio import results
 from engine.studio.held.held_records import Held
+from engine.studio.land.wear_records import WornTold
 from engine.studio.results import FilmLength, Growing, LayerRow, Note, Opening, Prepared, Ready, Scene, Writing
 
 FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
@@ -27,7 +28,8 @@ class Known:
     painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
     will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
     does; `prepared`: how many brushes are ready; `opening`: the file that is being opened; `filming`: the part done of
-    a film that is being made, `film_length`: of the one that is asked about; `held`: who holds what memory.  Times
+    a film that is being made, `film_length`: of the one that is asked about; `wearing`: the part done of an
+    erosion; `held`: who holds what memory.  Times
     are seconds of time.monotonic()."""
 
     ready: bool = False
@@ -44,6 +46,7 @@ class Known:
     opening: Opening | None = None
     filming: float | None = None
     film_length: FilmLength = FilmLength()  # noqa: RUF009
+    wearing: float | None = None
     held: Held = Held()  # noqa: RUF009
 
     @property
@@ -127,6 +130,7 @@ _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.Growing: _growing,
     results.Filming: lambda known, r, now: {"filming": r.part},
     results.FilmLength: lambda known, r, now: {"film_length": r},
+    WornTold: lambda known, r, now: {"wearing": r.part},
     Held: lambda known, r, now: {"held": r},
 }
 

@@ -22,6 +22,7 @@ from engine.studio.filing.film_requests import FilmRequest
 from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.journalled.tend_request import Tend
 from engine.studio.land.land_records import LandRequest
+from engine.studio.land.wear_records import WearRequest
 from engine.studio.masked.mask_requests import ShowMask
 from engine.studio.moving.move_requests import MoveRequest
 from engine.studio.moving.sheet_records import SheetRequest
@@ -271,6 +272,7 @@ Request = (
     | SheetRequest
     | ShowMask
     | LandRequest
+    | WearRequest
     | TryFill
 )
 

@@ -18,6 +18,7 @@ from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
 from engine.studio.held.held_records import Held
 from engine.studio.land.land_records import LandResult
+from engine.studio.land.wear_records import WornTold
 from engine.studio.layer_rows import LayerRow as LayerRow
 from engine.studio.layer_rows import Shows as Shows
 from engine.studio.moving.move_requests import BakeTold, Extent
@@ -312,6 +313,7 @@ Result = (
     | SheetResult
     | Tried
     | LandResult
+    | WornTold
     | Ants
     | Tint
     | Held

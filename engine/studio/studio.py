@@ -32,6 +32,7 @@ from engine.studio.journalled.posts import Posts
 from engine.studio.journalled.tend_request import Tend
 from engine.studio.land.land_maker import LandMaker
 from engine.studio.land.still_picture import StillPictures
+from engine.studio.land.wearing import Wearer
 from engine.studio.masked.mask_pictures import MaskPictures
 from engine.studio.moving.frame_fitting import FrameFitter
 from engine.studio.moving.moves import Moves
@@ -120,7 +121,7 @@ class Studio(Owned):
             Work(lambda: past.untold, past.tell),
             *_each(LandMaker(easel), Sheeting(easel), travels, HereFinder(trail)),
             Work(lambda: self.grower.pending, self._grow),
-            *_each(Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
+            *_each(Wearer(easel), Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
             _of(past),
             Work(lambda: easel.session.room.pending, lambda: easel.session.room.step()),
         )

@@ -16,6 +16,7 @@ from app.panels.dialogs.adjust_dialog import AdjustDialog
 from app.panels.dialogs.bake_dialog import BakeDialog
 from app.panels.dialogs.bring_in import BringIn
 from app.panels.dialogs.earlier_versions import EarlierVersions
+from app.panels.dialogs.erode_dialog import ErodeDialog
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.frame_dialog import FrameDialog
 from app.panels.dialogs.merge_dialog import MergeDialog
@@ -25,6 +26,7 @@ from app.panels.dialogs.select_dialogs import ChangeSelection, KeepSelection, Ke
 from app.panels.recovery.cards import Bin, Cards
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import COARSE, FINE
+from engine.studio.land.wear_records import StopWearing
 from engine.studio.requests import New
 
 MOST_SIDE = 1 << 20
@@ -91,6 +93,8 @@ class Dialogs:
         if self._open is None:
             desk.asked.shown = ""
             desk.adjusting.leave(desk.post)
+            if desk.known.wearing is not None:
+                desk.post(StopWearing())
 
     def _place(self, desk: Desk, dialog: Dialog) -> None:
         """In the middle, over a dimmed picture; in a corner over the picture as it is, where that is to be seen."""
@@ -318,6 +322,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "overtaken": _overtaken,
     "earlier": _earlier,
     "frame": lambda desk: FrameDialog(desk.known.frame),
+    "erode": lambda desk: ErodeDialog(),
     "paper": lambda desk: PaperDialog(desk.known.paper),
     "merge": lambda desk: MergeDialog(),
     "bake": lambda desk: BakeDialog(),

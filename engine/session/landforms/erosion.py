@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Generator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,19 +14,21 @@ from engine.canvas.commit import commit
 from engine.canvas.heaps.heaps import MOST_HEAPED, NO_HEAP, exponent, share
 from engine.canvas.layers import Layer
 from engine.canvas.node_checks import LayerError
+from engine.canvas.tile_cache import TileCache
 from engine.checks.roles import AS_HEIGHT
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.painting.layering.erode_command import Erode
 from engine.painting.textures import Around
 from engine.painting.value import Painting
-from engine.terrain.eroding import Weather, eroded
+from engine.terrain.eroding import Weather, eroded, eroding
 from engine.terrain.height_window import FINEST_TOLD, in_pixels
 from engine.terrain.plane import heights_of, land
 from engine.texture.planes import COLOURS, Planes
 
 _ALL = np.ones((TILE, TILE), np.float32)
 _ALPHA = 3
+_FORESEEN: dict[tuple[str, Weather], np.ndarray] = {}  # the last heights that were worked out ahead
 _RIM = 0.08  # of the shorter side, within which nothing becomes all
 
 
@@ -55,15 +59,36 @@ class _Raised:
 
 def worn(painting: Painting, command: Erode, around: Around) -> Painting:
     """Returns a painting whose heights are worn down.  LayerError if they cannot be."""
+    layer, before, weather = _found(painting, command, around.cache)
+    key = _key(before, weather)
+    after = _FORESEEN.get(key)
+    after = eroded(before, weather) if after is None else after
+    return raised(painting, layer, command.level, command.rect, after - before)
+
+
+def foreseen(painting: Painting, command: Erode, cache: TileCache | None = None) -> Generator[float, None, None]:
+    """Works out what `worn` will make of the heights that are there now, so that it need not; yields the part that is
+    done.  LayerError if it cannot be."""
+    _, before, weather = _found(painting, command, cache)
+    after = yield from eroding(before, weather)
+    _FORESEEN.clear()
+    _FORESEEN[_key(before, weather)] = after
+
+
+def _key(before: np.ndarray, weather: Weather) -> tuple[str, Weather]:
+    return hashlib.sha256(repr(before.shape).encode() + before.tobytes()).hexdigest(), weather
+
+
+def _found(painting: Painting, command: Erode, cache: TileCache | None) -> tuple[Layer, np.ndarray, Weather]:
+    """Returns the layer, its heights in pixels of the command's level, and the weather."""
     layer = height_layer(painting, command.layer, "erode")
     if command.level > FINEST_TOLD:
         raise LayerError(f"erode: found level {command.level}, expected at most {FINEST_TOLD}")
-    told = land(painting, layer.name, cache=around.cache)
+    told = land(painting, layer.name, cache=cache)
     before = in_pixels(told.height(command.level, command.rect), command.level)
     if not np.isfinite(before).all():
         raise LayerError(f"erode: found heights beyond all numbers at level {command.level}, expected a smaller scale")
-    weather = Weather(command.rain, command.strength, command.talus or None, command.seed)
-    return raised(painting, layer, command.level, command.rect, eroded(before, weather) - before)
+    return layer, before, Weather(command.rain, command.strength, command.talus or None, command.seed)
 
 
 def height_layer(painting: Painting, name: str | None, what: str) -> Layer:
