@@ -25,7 +25,7 @@ void main() {
     v = mix(v, vec3(0.60 + 0.26 * near, 0.69 + 0.14 * near, 0.82), 1.0 - exp(-t / haze));
     float part = t / horizon;
     part *= part;
-    v = mix(v, sky(d), 1.0 - exp(-2.93 * part * part));
+    v = mix(v, sky(d), 1.0 - exp(-6.0 * part * part));
     v *= 0.86;
     v = clamp(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0);
     colour = vec4(pow(v, vec3(1.0 / 2.2)), 1.0);

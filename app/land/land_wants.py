@@ -10,7 +10,7 @@ from app.desk.land.land_above import follow_canvas
 from app.desk.land.land_state import first_eye
 from engine.studio import results
 from engine.studio.land.land_records import AskGround, AskLand, AskStill, GroundFound, LandMade, StillCome
-from engine.terrain.seen.choosing import choose_tiles
+from engine.terrain.seen.choosing import FINEST, choose_tiles
 from engine.terrain.seen.eye import Eye, place_kept
 
 ASKED_AT_ONCE = 48  # tiles that are asked for at a time
@@ -112,6 +112,9 @@ class LandWants:
             return
         view = desk.view
         wide = _WIDE * state.size[0] / view.scale(0)
+        if view.shown_level > FINEST:
+            wide = math.ldexp(float(state.size[0]), -FINEST)
+            desk.say(f"The land is seen down to level {FINEST}")
         turn = -view.angle * 57.29577951308232
         state.clear = 0.4 * wide
         state.eye = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,6 +18,7 @@ from engine.studio.sight import STEPS_KEPT
 from engine.terrain.drape import cover_of
 from engine.terrain.plane import DEEP, Land, heights_of, land
 from engine.terrain.seen.land_tiles import FINER, QUADS, TEXELS, TileKey
+from engine.terrain.seen.tile_light import towards_sun
 from engine.terrain.seen.tile_making import SHADE_MARGIN, TileMaker
 
 _Where = Callable[[int], "list[Rect] | None"]
@@ -95,7 +97,23 @@ class LandMaker(Owned):
             seen = _of(self._maker.land, painting)
             cover = replace(cover_of(seen, self._maker.wet), low=self._maker.cover.low, high=self._maker.cover.high)
             self._maker = TileMaker(seen, cover, self._maker.wet)
-        self._open = deque(self._wanted)
+        self._open = deque(sorted(self._wanted, key=self._is_shaded_only))
+
+    def _is_shaded_only(self, key: TileKey) -> bool:
+        """Tells whether the newest change does not meet a tile itself: at most its shadow does, which can wait."""
+        _, where = self._changes[-1]
+        found = where(key.level + FINER)
+        near = _texels_of(key).grown(SHADE_MARGIN)
+        return found is not None and not any(area.meets(near) for area in found)
+
+    def _reach(self, key: TileKey) -> Rect:
+        """Returns where a change may be seen in a tile: around it, and towards the sun as far as shadows fall."""
+        assert self._maker is not None
+        near, (x, y, z) = _texels_of(key).grown(_SHADED), towards_sun()
+        high = max(self._maker.cover.high - self._maker.cover.low, 0.0)
+        far = min(math.ldexp(high / z, min(key.level + FINER, 64)), float(SHADE_MARGIN << 3 * FINER))
+        dx, dy = round(far * x), round(far * y)
+        return near.union(Rect(near.x0 + dx, near.y0 + dy, near.x1 + dx, near.y1 + dy))
 
     def _is_old(self, key: TileKey) -> bool:
         """Tells whether the window's copy of a tile is none, or shows something else than the painting."""
@@ -104,14 +122,18 @@ class LandMaker(Owned):
             return False
         if held < 0 or not self._changes or self._changes[0][0] > held + 1:
             return True
-        level = key.level + FINER
-        reach = Rect.at(key.x * TEXELS, key.y * TEXELS, TEXELS, TEXELS).grown(_SHADED)
+        level, reach = key.level + FINER, self._reach(key)
         for revision, where in self._changes:
             found = where(level) if revision > held else []
             if found is None or any(area.meets(reach) for area in found):
                 return True
         self._wanted[key] = self._revision
         return False
+
+
+def _texels_of(key: TileKey) -> Rect:
+    """Returns the texels of a tile."""
+    return Rect.at(key.x * TEXELS, key.y * TEXELS, TEXELS, TEXELS)
 
 
 _SHADED = SHADE_MARGIN * (1 << FINER) + QUADS  # texels around a tile in which a change may be seen in its light
