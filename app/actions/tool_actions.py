@@ -7,7 +7,7 @@ from collections.abc import Callable
 from app.actions.action import Action as A
 from app.actions.action import Check, always, to_now
 from app.desk.desk import Desk
-from app.desk.filling.fill_state import unbounded
+from app.desk.filling.fill_state import all_gone_round, unbounded
 from app.desk.moving.floating import let_go
 from engine.studio.requests import Do
 
@@ -56,6 +56,16 @@ def _fill_all(desk: Desk) -> None:
         desk.post(Do(unbounded(desk.filling.last)))
 
 
+def _fill_line(desk: Desk) -> None:
+    if desk.filling.last is not None:
+        desk.notices.settle("fill")
+        desk.post(Do(all_gone_round(desk.filling.last)))
+
+
+def _unclosed(desk: Desk) -> bool:
+    return _leaks(desk) and desk.notices.offering("fill_line") is not None
+
+
 def _drawing(tool: str, title: str, key: str, hint: str) -> A:
     return A(title, "Tools", (key,), f"{hint}, drawn by the brush", _tool(tool), always, _is(tool))
 
@@ -80,6 +90,9 @@ TOOL_ACTIONS: dict[str, A] = {
         "Fill within", "Tools", ("Alt+G",), "Fill all that you go round", _tool("enclose"), always, _is("enclose")
     ),
     "fill_all": A("Fill all the same", "Tools", (), "Fill up to the end of what is looked at", _fill_all, _leaks),
+    "fill_line": A(
+        "Fill what the line goes round", "Tools", (), "Fill all of it, whatever is there", _fill_line, _unclosed
+    ),
     "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), always, _is("pan")),
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), always, _is("zoom")),
     "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), always, _is("turn")),

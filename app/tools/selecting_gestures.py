@@ -137,7 +137,8 @@ def wand(desk: Desk, first: PenEvent) -> Gesture:
     while event.kind != "up":
         event = yield
     like = like_at(desk, first.x, first.y)
-    desk.selecting.choose(desk.post, Select(like, op, like.level))
+    grown = round(desk.filling.grown / desk.view.scale(like.level), 2)
+    desk.selecting.choose(desk.post, Select(like, op, like.level, grown))
 
 
 def _on_first(desk: Desk, event: PenEvent) -> bool:

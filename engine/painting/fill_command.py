@@ -22,7 +22,7 @@ from engine.painting.points import plain, points_array
 WIDEST_GAP = 1024  # px
 LOOKED_AT_CAP = 1 << 24  # pixels in which a region is looked for
 TOLERANCE = 0.1
-REGIONS = "alike", "empty", "all"  # within a line, that are meant
+REGIONS = "alike", "empty", "all", "line"  # within a line, that are meant
 _NOTHING: Map[str, Any] = Map()
 
 
@@ -35,7 +35,8 @@ class Like:
     `of`: the name of what is looked at, None for all that is seen, SAME for the active layer.
 
     `within`: the corners of a closed line, in pixels from `at`: of what it goes round, all regions that hang together
-    with nothing outside of it, by `regions`: "alike", of the colour at `at`; "empty", of none; "all", lines too.
+    with nothing outside of it, by `regions`: "alike", of the colour at `at`; "empty", of none; "all", lines too;
+    or "line": all of what it goes round.
     """
 
     at: tuple[int, int]

@@ -28,6 +28,10 @@ class Leak(Refusal):
     """A region to be filled that goes on beyond where it is looked for."""
 
 
+class Unclosed(Refusal):
+    """A line goes round no region that is closed."""
+
+
 class Beginning(NamedTuple):
     """The frame and the paper that a painting had at first, where it has others now."""
 

@@ -22,7 +22,7 @@ from engine.numeric.torus_flood import region_around
 from engine.painting.fill_command import LOOKED_AT_CAP, Like
 from engine.painting.grown import settled_alone, settled_root
 from engine.painting.layering.placing_members import Same
-from engine.painting.value import Leak, Painting, Refusal
+from engine.painting.value import Leak, Painting, Refusal, Unclosed
 
 
 def alike(painting: Painting, like: Like, open_too: bool, cache: TileCache | None, what: str = "fill") -> Coverage:
@@ -38,6 +38,8 @@ def alike(painting: Painting, like: Like, open_too: bool, cache: TileCache | Non
         raise Refusal(f"{what}.like.at: found {like.at[0]}, {like.at[1]}, expected a pixel of {_told(rect)}")
     if rect.area > LOOKED_AT_CAP:
         raise Refusal(f"{what}.like.rect: found {_told(rect)}, expected at most {LOOKED_AT_CAP} pixels")
+    if like.within is not None and like.regions == "line":
+        return outlined(like.level, like.at, np.array(like.within), f"{what}.like.within")
     picture = _picture(painting, like, rect, cache)
     if like.within is not None:
         return _coverage(like.level, rect, _enclosed(like, rect, picture, what))
@@ -69,7 +71,7 @@ def _enclosed(like: Like, rect: Rect, picture: np.ndarray, what: str) -> flood.R
             colour[:] = 0.0
         found = enclosed(picture, inside, colour, flood.Likeness(like.tolerance, like.gap))
     if not found.covered.any():
-        raise Refusal(f"{what}: found nothing closed that lies within the line, expected a region or more")
+        raise Unclosed(f"{what}: found nothing closed that lies within the line, expected a region or more")
     return found
 
 

@@ -14,7 +14,7 @@ from engine.canvas.node_checks import LayerError
 from engine.checks.field_error import FieldError
 from engine.files.fault import Cancelled, FileError
 from engine.numeric.formula import FormulaError
-from engine.painting.value import Leak, Refusal
+from engine.painting.value import Leak, Refusal, Unclosed
 from engine.studio.results import Note
 
 EXPECTED = (FileError, FieldError, FormulaError, LayerError, Refusal, Cancelled, MemoryError)
@@ -26,6 +26,7 @@ OFFERS: dict[str, tuple[str, ...]] = {
     "open": ("try_again", "open"),
 }
 LEAKS = "It runs out of what you see: fill all the same?"
+UNCLOSED = "Nothing closed lies within the line: fill all that it goes round?"
 NO_ROOM, LOGGED = ("free_space",), ("copy_details",)  # about a full disk; about a fault
 LOGGER = logging.getLogger("inkfall")
 
@@ -38,6 +39,8 @@ def told(error: Exception, doing: str, about: str = "", path: Path | None = None
     """
     if isinstance(error, Leak):
         return Note(LEAKS, True, stays=True, offers=("fill_all",), about="fill")
+    if isinstance(error, Unclosed):
+        return Note(UNCLOSED, True, stays=True, offers=("fill_line",), about="fill")
     fault = not isinstance(error, EXPECTED)
     if fault:
         LOGGER.error("a fault, %s", doing, exc_info=error)
@@ -49,7 +52,7 @@ def told(error: Exception, doing: str, about: str = "", path: Path | None = None
 
 def stated(error: Exception) -> Exception:
     """Returns an error of what nobody asked for just now, as what plays from a file: there is nobody to answer."""
-    return Refusal(str(error)) if isinstance(error, Leak) else error
+    return Refusal(str(error)) if isinstance(error, Leak | Unclosed) else error
 
 
 def is_full(error: BaseException) -> bool:

@@ -61,7 +61,7 @@ def _menu(app, title):
 
 def _keep(app, name):
     _menu(app, "Keep as…")
-    app.click("selection name")
-    app.type(name)
-    app.click("Keep")
+    app.box("selection name")
+    app.type(name)  # into the field, which has the keyboard
+    app.keys("Return")
     app.until_gone("selection name")

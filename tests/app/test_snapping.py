@@ -23,6 +23,7 @@ UPRIGHT = Guide("upright", "ruler", 0, (0, 0), ((200.0, -200.0), (200.0, 200.0))
 SLANTED = Guide("slanted", "parallel", 0, (0, 0), ((0.0, 0.0), (30.0, 12.0)))
 DEPTH = Guide("depth", "perspective-1", 0, (0, 0), ((150.0, 90.0), (250.0, 90.0)))
 OVAL = Guide("oval", "ellipse", 0, (0, 0), ((100.0, 0.0), (180.0, 0.0), (100.0, 50.0)))
+GRID = Guide("grid", "grid", 0, (0, 0), ((0.0, 0.0), (40.0, 0.0), (0.0, 40.0)))
 FEW = settings(max_examples=20)
 ANGLE, FAR = st.floats(0, math.tau), RULER_REACH * 3
 
@@ -71,6 +72,19 @@ def test_far_from_rulers_the_line_that_runs_as_the_stroke_does_is_chosen(start, 
     assert abs(math.remainder(math.atan2(snapper.way.curve.dy, snapper.way.curve.dx) - best, math.pi)) < 1e-9
     off = (found - np.array(start)) @ np.array([-math.sin(best), math.cos(best)])
     np.testing.assert_allclose(off, 0, atol=1e-6)
+
+
+@FEW
+@given(st.tuples(st.floats(0, 400), st.floats(-100, 100)), ANGLE)
+def test_strokes_along_a_grid_lie_on_its_lines_and_oblique_ones_are_free(start, angle):
+    found, snapper = drawn(start, angle, GRID)
+    aside = abs(math.remainder(angle, math.pi / 2))
+    if aside > math.radians(21):
+        assert snapper.way is None
+        np.testing.assert_allclose(found[-1] - np.array(start), 60 * np.array([math.cos(angle), math.sin(angle)]), atol=1e-6)
+    elif aside < math.radians(19):
+        fixed = found[:, int(abs(math.sin(angle)) < 0.5)]
+        np.testing.assert_allclose(fixed, 40 * round(fixed[0].item() / 40), atol=1e-6)
 
 
 @FEW

@@ -47,7 +47,7 @@ def test_the_wand_selects_what_the_tool_fill_would_fill_and_joins_it_as_the_keys
     filled = clicked(desk, posted, "fill")
     desk.pointer.shift, desk.pointer.alt = shift, alt
     chosen = clicked(desk, posted, "wand")
-    assert chosen == Select(filled.like, op, filled.like.level)
+    assert chosen == Select(filled.like, op, filled.like.level, grow=1.0)
     assert isinstance(chosen.source, Like)
 
 

@@ -14,14 +14,15 @@ WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
 
 @dataclass(slots=True)
 class FillState:
-    """`tolerance`: 0..1; `gap`: px of the screen; `seen`: all that is seen is looked at, not the layer alone; `last`:
-    what was asked for last.  Of what is gone round `boxed`: by a rectangle; `regions`: which of it, as
+    """`tolerance`: 0..1; `gap`: px of the screen; `seen`: all that is seen is looked at, not the layer alone;
+    `grown`: px of the screen by which the wand goes under the soft rim of what it finds; `last`: what was asked for last.  Of what is gone round `boxed`: by a rectangle; `regions`: which of it, as
     `Like` has them.  Of gradients `shape`: its kind; `fades`: to nothing, not to the other colour; `gradient`:
     the one laid last; `named`: the names of those that were asked for."""
 
     tolerance: float = 0.12
     gap: float = 0.0
     seen: bool = True
+    grown: float = 1.0
     contiguous: bool = True
     last: Fill | None = None
     boxed: bool = False
@@ -50,3 +51,9 @@ def all_in(rect: Rect, level: int) -> Like:
 def unbounded(fill: Fill) -> Fill:
     """Returns the same fill, wherever its region ends."""
     return replace(fill, open=True)
+
+
+def all_gone_round(fill: Fill) -> Fill:
+    """Returns the same fill, of all that its line goes round."""
+    like = fill.like
+    return fill if like is None or like.within is None else replace(fill, like=replace(like, regions="line"))

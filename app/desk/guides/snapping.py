@@ -20,6 +20,7 @@ from engine.painting.guiding.guides import Guide
 BEGINNING, BEGINNING_STRAIGHT = 10.0, 12.0  # points of the screen that a stroke goes before its line is chosen
 RULER_REACH = 32.0  # points of the screen from a ruler within which strokes are drawn onto it
 _ACROSS = math.radians(60.0)  # more than so far from a line's direction, a stroke is not on its way
+_ALONG_GRID = math.radians(20.0)  # the same for grids, in which oblique strokes are free
 _EDGE = math.radians(20.0)  # by which a ruler that is near is taken before lines that are everywhere
 _TURNS = 24  # directions of a straight line, of a full turn
 _AT_ONCE = 256  # pieces of one part of a stroke
@@ -27,11 +28,13 @@ _EDGES = ("ruler", "ellipse", "grid")  # kinds that lie somewhere
 
 
 class Way(NamedTuple):
-    """A curve that a stroke may be drawn onto, and how much, 0..1; `edge`: it lies somewhere, others begin anywhere."""
+    """A curve that a stroke may be drawn onto, and how much, 0..1; `edge`: it lies somewhere, others begin anywhere;
+    `across`: by how much a stroke may run aside of it, radians."""
 
     curve: Edge
     strength: float
     edge: bool
+    across: float = _ACROSS
 
 
 def ways_at(guides: Sequence[Guide], level: int, origin: tuple[int, int], at: Pair, reach: float) -> list[Way]:
@@ -40,8 +43,8 @@ def ways_at(guides: Sequence[Guide], level: int, origin: tuple[int, int], at: Pa
     for guide in guides:
         if not guide.snap or not _within(guide, level, origin, at, reach):
             continue
-        edge = guide.kind in _EDGES
-        found = (Way(curve, guide.snap, edge) for curve in CURVES[guide.kind](guide, level, origin, at))
+        edge, across = guide.kind in _EDGES, _ALONG_GRID if guide.kind == "grid" else _ACROSS
+        found = (Way(curve, guide.snap, edge, across) for curve in CURVES[guide.kind](guide, level, origin, at))
         out += [way for way in found if math.dist(way.curve.nearest(*at), at) <= reach]
     return out
 
@@ -72,7 +75,7 @@ def best_way(ways: Sequence[Way], start: Pair, there: Pair, reach: float) -> Way
         even = abs(dx * (there[0] - start[0]) + dy * (there[1] - start[1])) / length
         angle = math.acos(min(1.0, even))
         cost = angle + _EDGE * (math.dist(foot, start) / reach - 1.0) * way.edge
-        if angle <= _ACROSS and cost < best:
+        if angle <= way.across and cost < best:
             best, found = cost, way
     return found
 

@@ -75,15 +75,17 @@ class KeepSelection:
 
     def draw(self, desk: Desk) -> bool:
         """Draws the contents; False when it is done."""
+        if imgui.is_window_appearing():
+            imgui.set_keyboard_focus_here()
         imgui.set_next_item_width(_WIDE * imgui.get_font_size())
-        _, self._name = imgui.input_text("Name", self._name)
+        entered, self._name = imgui.input_text("Name", self._name, imgui.InputTextFlags_.enter_returns_true)
         w.named("selection name")
         w.tooltip("One of that name that is kept is replaced")
         name = self._name.strip()[:120]
         imgui.begin_disabled(not name)
         kept = w.text_button("Keep", "Keep it with the painting")
         imgui.end_disabled()
-        if kept and name:
+        if (kept or entered) and name:
             desk.post(Do(Select(keep=name)))
             return False
         imgui.same_line()

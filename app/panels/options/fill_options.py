@@ -20,13 +20,15 @@ _FILLS = (
 )
 FILL_TOOLS = tuple(row[0] for row in _FILLS)
 _LINES = (("lasso", icons.LASSO, "Go round them freely"), ("box", icons.AREA, "Go round them by a rectangle"))
-_REGIONS = (("alike", "Alike"), ("empty", "Empty"), ("all", "Everything"))
+_REGIONS = (("alike", "Alike"), ("empty", "Empty"), ("all", "Everything"), ("line", "The line"))
 _WHICH = (
     "Regions of the colour where you begin",
     "Regions where there is no paint",
     "All that does not reach the line: lines within it, too",
+    "All that the line goes round, on empty ground, too",
 )
 _ENDS = (("other", "Other colour", "It ends in the other colour"), ("nothing", "Transparent", "It fades to nothing"))
+_MOST_GROWN = 16.0  # px of the screen
 _WAYS, _SHAPES, _SLIDER = 12.0, 14.0, 7.0  # widths, ems
 
 
@@ -80,6 +82,9 @@ def _within(desk: Desk) -> None:
 
 def _wand(desk: Desk) -> None:
     likeness(desk)
+    spaced()
+    state, hint = desk.filling, "Under soft lines, by so much: no seam is left when what is selected is filled"
+    state.grown = round(slid("Grow", state.grown, _MOST_GROWN, "%.0f px", hint))
     spaced()
     desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
 

@@ -11,7 +11,7 @@ import numpy as np
 from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.recording import Recording
-from engine.painting.value import Leak
+from engine.painting.value import Leak, Unclosed
 from engine.strokes.live_stroke import POINTS_CAP
 from engine.studio import faults, results
 
@@ -69,7 +69,7 @@ class Playing(Owned):
                 if not self._next(stage):
                     return None
                 now = time.monotonic()
-        except Leak as error:
+        except (Leak, Unclosed) as error:
             raise faults.stated(error) from None
         return max(self._clock, now)
 

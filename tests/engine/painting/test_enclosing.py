@@ -10,7 +10,7 @@ from test_filling import done, seen
 
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting.value import Refusal
+from engine.painting.value import Refusal, Unclosed
 from engine.session.replay import replay
 
 BOX = [[-1, -1], [150, -1], [150, 110], [-1, 110]]  # from 4, 4: all but the frame's own rim
@@ -56,7 +56,7 @@ def test_it_equals_filling_each_region_that_lies_within(cells, open_one):
 
 @given(
     corners=st.lists(st.tuples(st.integers(0, 156), st.integers(0, 116)), min_size=3, max_size=7),
-    regions=st.sampled_from(["alike", "empty", "all"]),
+    regions=st.sampled_from(["alike", "empty", "all", "line"]),
     gap=st.sampled_from([0, 9]),
 )
 @settings(max_examples=12, deadline=None)
@@ -69,7 +69,8 @@ def test_nothing_changes_outside_of_the_line(corners, regions, gap):
     except Refusal:
         return
     told = done({"do": "select", "outline": [list(at) for at in corners]}).painting.selection
-    inside = np.broadcast_to(told.part(0, Rect(0, 0, 160, 120), None), (120, 160)) >= 0.5
+    part = np.broadcast_to(told.part(0, Rect(0, 0, 160, 120), None), (120, 160))
+    inside = part > 0.0 if regions == "line" else part >= 0.5
     assert not (before != after).any(axis=0)[~inside].any()
 
 
@@ -92,6 +93,17 @@ def test_all_takes_the_lines_and_alike_those_of_one_colour():
     assert (everything[:, 30, 30] == everything[:, 20, 30]).all()
     assert (everything[:, 30, 30] == everything[:, 70, 90]).all()
     assert everything[3, 8, 8] == 0.0
+
+
+def test_all_that_the_line_goes_round_is_filled_on_empty_ground_as_if_it_were_selected():
+    line = [[0, 0], [60.5, 3], [33, 70]]
+    gone_round = filled(done(), fill((20, 11), line, regions="line"))
+    chosen = {"do": "select", "outline": line, "origin": [20, 11]}
+    selected = filled(done(), chosen, {"do": "fill", "brush": {"colour": "#c06020"}})
+    assert gone_round[3].max() == 1.0
+    assert (gone_round == selected).all()
+    with pytest.raises(Unclosed, match="nothing closed that lies within"):
+        filled(done(), fill((20, 11), line))
 
 
 def test_it_is_one_step_selects_as_well_and_a_replay_is_equal():
