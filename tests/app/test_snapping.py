@@ -81,7 +81,9 @@ def test_strokes_along_a_grid_lie_on_its_lines_and_oblique_ones_are_free(start, 
     aside = abs(math.remainder(angle, math.pi / 2))
     if aside > math.radians(21):
         assert snapper.way is None
-        np.testing.assert_allclose(found[-1] - np.array(start), 60 * np.array([math.cos(angle), math.sin(angle)]), atol=1e-6)
+        np.testing.assert_allclose(
+            found[-1] - np.array(start), 60 * np.array([math.cos(angle), math.sin(angle)]), atol=1e-6
+        )
     elif aside < math.radians(19):
         fixed = found[:, int(abs(math.sin(angle)) < 0.5)]
         np.testing.assert_allclose(fixed, 40 * round(fixed[0].item() / 40), atol=1e-6)
