@@ -135,8 +135,15 @@ def _nothing(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
 
 
 def _covers(step: CompositeStep, source: np.ndarray | Found | None) -> bool:
-    """Tells whether a step hides all that lies below."""
-    return step.may_cover and isinstance(source, np.ndarray) and bool(source[3, 0] >= 1) and blend.opaque(source)
+    """Tells whether a step hides all that lies below: by opaque pixels, or by such behind a mask that hides nothing."""
+    if not step.may_cover:
+        return False
+    if not isinstance(source, list):
+        return source is not None and bool(source[3, 0] >= 1) and blend.opaque(source)
+    if len(source) != 2 or not source[1][0].cuts or not _covers(*source[0]):
+        return False
+    mask = source[1][1]
+    return isinstance(mask, np.ndarray) and bool(mask[3, 0] == 1) and bool((mask[3] == 1).all())
 
 
 def _pixels(source: Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:

@@ -3,6 +3,7 @@ out, at any depth, and each tile of them once."""
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_self_turns import FRAME, POSES, as_seen, fixed, painted, picture
 
+from engine.canvas import composite as compositing
 from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Alone, Group, Layer, find, walk
 from engine.canvas.placing.composite_steps import Planned
@@ -187,6 +189,24 @@ def test_what_a_mask_hides_of_a_copy_is_not_read():
     composite(root, 3, rect, read)
     assert sorted(set(reads)) == ["a", "g"]
     assert find(root, "copy 90").of is None
+
+
+def test_what_lies_below_a_copy_is_not_read_where_its_mask_hides_nothing():
+    root, (x, y) = behind_its_own(), fixed(HALF, 120)
+    reads = []
+
+    def read(layer, level, rect):
+        reads.append(layer.name)
+        return layer_planes(layer, level, rect)
+
+    rect = Rect.at(x, y, 64, 64)
+    found = composite(root, 120, rect, read)
+    assert 0 < reads.count("a") < 30  # of 120 turns
+    covers = compositing._covers
+    with patch.object(
+        compositing, "_covers", lambda step, source: not isinstance(source, list) and covers(step, source)
+    ):
+        np.testing.assert_array_equal(composite(root, 120, rect, layer_planes), found)  # read to the bottom
 
 
 @pytest.mark.parametrize("name", ["in a thin group", "round about twice", "behind a mask"])

@@ -231,6 +231,18 @@ def test_one_that_is_seen_elsewhere_too_changes_anywhere():
     np.testing.assert_allclose(picture(paint, rect=there), picture(plain), atol=2**-15)
 
 
+@pytest.mark.parametrize("placing", [{"at": [0, 0]}, TURNED])
+def test_a_mask_that_hides_nothing_changes_no_bit(placing):
+    wide = {**stroke(radius=40, hardness=1), "layer": "sky"}
+    session = done(wide, {"do": "layer", "add": "below"}, stroke("below", colour="#20f040"), placing=placing)
+    session.do(c.parse({"do": "layer", "move": "below", "to": 0}))
+    plain = [picture(root_of(session), level) for level in (-2, 0, 3)]
+    for name in ("again", "sky"):
+        session.do(c.parse({**changed(mask={"op": "full"}), "set": name}))
+        for level, found in zip((-2, 0, 3), plain, strict=True):
+            np.testing.assert_array_equal(picture(root_of(session), level), found)
+
+
 @pytest.mark.parametrize("placing", [EXACT, TURNED])
 def test_applied_it_is_paint_of_its_own(placing):
     session = masked(placing=placing)
