@@ -12,6 +12,8 @@ from app.desk.naming import free_name
 from app.desk.places import going
 from engine.studio.requests import Do
 
+_FLOWN = 4.0  # notches of the wheel that a level is, in the land
+
 
 def _back(desk: Desk) -> bool:
     return desk.places.trail.can_go_back and not desk.painting
@@ -27,9 +29,17 @@ def _lost(desk: Desk) -> bool:
 
 def _zooms(levels: float) -> Callable[[Desk], None]:
     def do(desk: Desk) -> None:
-        desk.glide.zoom(desk.view, levels, *desk.middle())
+        if desk.land.on:
+            desk.land.fly(*desk.middle(), levels * _FLOWN)
+        else:
+            desk.glide.zoom(desk.view, levels, *desk.middle())
 
     return do
+
+
+def _fit(desk: Desk) -> None:
+    desk.fit()
+    desk.land.stand(None)
 
 
 def _one_to_one(desk: Desk) -> None:
@@ -97,7 +107,7 @@ def _type_place(desk: Desk) -> None:
 
 
 VIEW_ACTIONS: dict[str, A] = {
-    "fit": A("Fit the frame", "View", ("F", "2"), "Show the whole frame", Desk.fit),
+    "fit": A("Fit the frame", "View", ("F", "2"), "Show the whole frame", _fit),
     "one": A("One to one", "View", ("1",), "One pixel of level 0 on one of the screen", _one_to_one),
     "in": A("Zoom in", "View", ("+", "=", "PageUp"), "One level deeper", _zooms(1.0)),
     "out": A("Zoom out", "View", ("-", "PageDown"), "One level back", _zooms(-1.0)),

@@ -85,10 +85,11 @@ class LandState:
         self.eye, self.moved, self.changed = eye, now, True
         self.still = None
 
-    def stand(self, outlook: Outlook) -> None:
-        """Goes to where a bookmark looks from."""
-        self.on, self.stands = True, outlook
-        self.eye = self.asked = None
+    def stand(self, outlook: Outlook | None) -> None:
+        """Goes to where a bookmark looks from; None: to before what the canvas shows, if the land is seen."""
+        self.on, self.stands = self.on or outlook is not None, outlook
+        self.eye = self.asked = self.still = self.goal = None
+        self.left, self.changed = 0.0, True
 
     def outlook_here(self) -> Outlook | None:
         """Returns what a bookmark tells of where the eye is; None where the canvas is seen."""

@@ -1,0 +1,89 @@
+"""The eye over the land: it turns about what is held, flies to what is pointed at, and keeps above the ground."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from app.desk.land import land_state
+from app.desk.land.land_state import LandState
+from engine.numeric.address import Rect
+from engine.terrain.seen.eye import Eye
+from engine.terrain.seen.land_tiles import QUADS, TEXEL_RIM, TEXELS, LandTile, TileKey
+
+SIZE = 400, 300
+
+
+def flat(key):
+    """A tile of even ground at height 0."""
+    side = TEXELS + 2 * TEXEL_RIM
+    heights, surface = np.zeros((QUADS + 1, QUADS + 1, 2), np.float32), np.zeros((TEXELS + 1, TEXELS + 1), np.float32)
+    return LandTile(key, 0, heights, 0.0, 0.0, surface, np.zeros((side, side, 3), np.uint8))
+
+
+@pytest.fixture
+def state():
+    made = LandState(on=True, frame=Rect.at(0, 0, 64, 64), room=(10, 20, *SIZE), drawn=[TileKey(-6, 0, 0)])
+    made.take(flat(TileKey(-6, 0, 0)), 1, 0.0)
+    made.look(Eye(Fraction(500), Fraction(700), 60.0, 15.0, -25.0), 0.0)
+    return made
+
+
+def seen_at(state, hit):
+    """Where a place shows in the window."""
+    right, up, forward = state.eye.axes()
+    off = np.array([float(hit.x - state.eye.x), float(hit.y - state.eye.y), hit.z - state.eye.z])
+    pixel = state.eye.pixel(SIZE[0]) * (off @ forward)
+    return 10 + SIZE[0] / 2 + off @ right / pixel, 20 + SIZE[1] / 2 - off @ up / pixel
+
+
+def test_what_is_hit_shows_where_it_was_pointed_at(state):
+    hit = state.hit(120.0, 260.0)
+    assert hit.z == pytest.approx(0.0, abs=1e-9)
+    assert seen_at(state, hit) == pytest.approx((120.0, 260.0), abs=1e-6)
+    assert state.hit(120.0, 22.0) is None
+
+
+def test_turning_keeps_what_is_held_under_the_pointer_and_as_far_away(state):
+    hit = state.hit(150.0, 220.0)
+    state.orbit(hit, 40.0, -12.0, 1.0)
+    assert seen_at(state, hit) == pytest.approx((150.0, 220.0), abs=1e-6)
+    off = float(hit.x - state.eye.x), float(hit.y - state.eye.y), hit.z - state.eye.z
+    assert np.linalg.norm(off) == pytest.approx(hit.away)
+    state.orbit(hit, 0.0, 400.0, 1.0)
+    assert state.eye.z > 0.0
+
+
+def test_a_gesture_of_the_wheel_leads_from_the_range_to_a_pebble(state):
+    hit = state.hit(210.0, 200.0)
+    for _ in range(120):
+        state.fly(210.0, 200.0, 1.0)
+    while state.step(0.05, 2.0):
+        pass
+    assert 0.0 < state.eye.z < 1e-4
+    assert abs(float(hit.x - state.eye.x)) < 1e-3
+    assert state.hit(210.0, 200.0).away < 1e-3
+    for _ in range(200):
+        state.fly(210.0, 200.0, -1.0)
+        state.step(0.1, 3.0)
+    assert 100.0 < state.eye.z < 1e5
+
+
+def test_the_eye_stays_above_the_ground(state):
+    state.look(replace(state.eye, z=-5.0), 1.0)
+    assert state.eye.z > 0.0
+    assert state.clear == pytest.approx(state.eye.z)
+
+
+def test_tiles_take_no_more_than_their_room(state, monkeypatch):
+    one = flat(TileKey(0, 0, 0)).held
+    monkeypatch.setattr(land_state, "MOST_HELD", 10 * one)
+    for x in range(40):
+        state.take(flat(TileKey(0, x, 0)), 1, 0.0)
+        state.use({TileKey(-6, 0, 0), TileKey(0, 3, 0)} if x >= 3 else {TileKey(-6, 0, 0)})
+        assert state.held <= 10 * one
+    assert TileKey(0, 3, 0) in state.kept
+    assert state.held == one * len(state.kept)
+    state.forget()
+    assert state.held == 0
