@@ -82,5 +82,6 @@ class Drawing:
         """Returns what to draw of the tiles: nothing under the sheets of what is dragged."""
         frame = None if desk.known.wrapping else desk.known.frame
         if sheets is not None:
-            return self._screen.bare(desk.view, frame, desk.insets, desk.known.paper)
+            hidden = self._sheets.hides(sheets, desk.view)
+            return self._screen.bare(desk.view, frame, desk.insets, desk.known.paper, hidden)
         return self._screen.plan(desk.view, frame, now, desk.insets, desk.known.paper, desk.light.shown)

@@ -258,8 +258,12 @@ class Screen:
                 self._descendants(plan, view, tile, 2)
         return plan
 
-    def bare(self, view: View, frame: Rect | None, insets: Insets, paper: str | None) -> ScreenPlan:
-        """Returns a plan of the paper alone."""
+    def bare(
+        self, view: View, frame: Rect | None, insets: Insets, paper: str | None, hidden: bool = False
+    ) -> ScreenPlan:
+        """Returns a plan of the paper alone; of nothing where that is `hidden`."""
+        if hidden:
+            return ScreenPlan(view, frame, insets, 0, paper)
         exact = not view.fraction and not view.angle
         corners = [_corner(view, tile, exact) for tile in cells(view, view.shown_level)]
         rows: list[Row] = [(*at, 1.0, -1, -1, 0.0, 0.0, 1.0) for at in corners]

@@ -41,6 +41,7 @@ class SheetPass:
         self._corners = ctx.vertex_array(self._program, [])
         self._held: CarriedSheets | None = None
         self._textures: list[moderngl.Texture | None] = []
+        self._opaque: list[bool] = []
 
     def keep(self, sheets: CarriedSheets | None) -> None:
         """Lets go of all sheets but these."""
@@ -52,7 +53,6 @@ class SheetPass:
         if self._held is not plan.sheets:
             self._take(plan.sheets)
         self._ctx.scissor = free_part(view, insets)
-        self._ctx.enable(moderngl.BLEND)
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         self._program["size"] = view.width, view.height
         for quad in plan.quads:
@@ -60,10 +60,23 @@ class SheetPass:
             if texture is None:
                 continue
             texture.filter = _filter(quad, texture.width)
+            mixes = not self._opaque[quad.sheet] or texture.filter[0] != moderngl.NEAREST  # rims of others are soft
+            (self._ctx.enable if mixes else self._ctx.disable)(moderngl.BLEND)
             texture.use(0)
             self._program["corner"], self._program["sides"] = quad.corner, (*quad.across, *quad.down)
             self._corners.render(moderngl.TRIANGLE_STRIP, vertices=4)
+        self._ctx.enable(moderngl.BLEND)
         self._ctx.scissor = None
+
+    def hides(self, plan: SheetPlan, view: View) -> bool:
+        """Tells whether what lies below covers the whole screen, pixel on pixel: no paper is to be seen."""
+        quad, sheet = plan.quads[0], (plan.sheets.sheets or ())[BELOW]
+        (x, y), (width, height) = quad.corner, (quad.across[0], quad.down[1])
+        if quad.across != (sheet.rect.width, 0.0) or quad.down != (0.0, sheet.rect.height):
+            return False
+        if self._held is not plan.sheets:
+            self._take(plan.sheets)
+        return self._opaque[BELOW] and x <= 0 and y <= 0 and x + width >= view.width and y + height >= view.height
 
     def _take(self, sheets: CarriedSheets) -> None:
         self._let_go()
@@ -75,13 +88,14 @@ class SheetPass:
                 texture.repeat_x = texture.repeat_y = False
                 if number == MOVED:
                     texture.build_mipmaps()
+            self._opaque.append(sheet.pixels is not None and int(sheet.pixels[..., 3].min()) == 255)
             self._textures.append(texture)
 
     def _let_go(self) -> None:
         for texture in self._textures:
             if texture is not None:
                 texture.release()
-        self._held, self._textures = None, []
+        self._held, self._textures, self._opaque = None, [], []
 
 
 def _filter(quad: Quad, width: int) -> tuple[int, int]:

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.canvas.screen import Screen
-from app.canvas.sheet_pass import MOVED, SheetPass
+from app.canvas.sheet_pass import MOVED, Quad, SheetPass, SheetPlan
 from app.canvas.view import Place, View, dyadic_place
 from app.desk.moving.sheet_state import Carried, SheetState
 from engine.canvas.placing.pose import UNMOVED, Pose
@@ -141,3 +141,31 @@ def test_the_card_shows_them_over_one_another_pixel_for_pixel_where_they_are_mov
     wanted[:, :20] = pixels[2, :, :20, :3]
     x, y = SIZE[0] // 2 + rect.x0, SIZE[1] // 2 + rect.y0
     np.testing.assert_array_equal(found[y : y + rect.height, x : x + rect.width], wanted)
+
+
+@pytest.mark.parametrize(("alpha", "beside", "hidden"), [(255, 0, True), (255, 1, False), (254, 0, False)])
+def test_no_paper_is_drawn_where_an_opaque_sheet_covers_it_and_nobody_sees_that(context, alpha, beside, hidden):
+    rng, at = np.random.default_rng(5), view()
+    x, y = SIZE[0] // 2, SIZE[1] // 2
+    rect = Rect(beside - x, -y, SIZE[0] - x, SIZE[1] - y)
+    pixels = rng.integers(0, 255, (3, rect.height, rect.width, 4), dtype=np.uint8)
+    pixels[..., 3], pixels[2], pixels[0, 3, 3] = 255, 0, alpha
+    plan = SheetPlan(
+        CarriedSheets(1, 0, tuple(CarriedSheet(rect, one) for one in pixels)),
+        tuple(
+            Quad(n, (float(beside + 9 * (n == 1)), 0.0), (float(rect.width), 0.0), (0.0, float(rect.height)))
+            for n in range(3)
+        ),
+    )
+    screen, drawn = Screen(context), SheetPass(context)
+    assert drawn.hides(plan, at) is hidden
+    pictures = []
+    for left_out in (hidden, False):
+        target = context.simple_framebuffer(SIZE)
+        target.use()
+        screen.draw(screen.bare(at, rect, (0, 0, 0, 0), None, left_out))
+        drawn.draw(plan, at, (0, 0, 0, 0))
+        pictures.append(target.read())
+        target.release()
+    drawn.keep(None)
+    assert pictures[0] == pictures[1]
