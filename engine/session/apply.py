@@ -87,7 +87,8 @@ def _add(painting: Painting, command: c.AddLayer, around: Around) -> Painting:
 
 
 def _add_picture(painting: Painting, command: c.AddPicture, around: Around) -> Painting:
-    return with_picture(painting, command)
+    after = with_picture(painting, command)
+    return after if command.role != AS_HEIGHT else replace(after, root=_only_heights(after.root, command.name))
 
 
 def _add_pictures(painting: Painting, command: c.AddPictures, around: Around) -> Painting:

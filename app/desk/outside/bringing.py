@@ -11,7 +11,7 @@ from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
 from app.desk.outside.pictured import free_layer_name, free_texture_name
 from app.desk.previews import PAINTING, PHOTOSHOP, PICTURES
-from engine.checks.roles import REFERENCE
+from engine.checks.roles import AS_HEIGHT, REFERENCE
 from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do
 
@@ -77,3 +77,9 @@ def as_reference(desk: Desk, path: Path, place: Place) -> None:
     """Lays a picture likewise, to be looked at and picked from while one paints; it is no part of what is exported."""
     desk.say(f"Bringing in {path.name}")
     desk.work(_Lay(path, place, REFERENCE))
+
+
+def as_ground(desk: Desk, path: Path, place: Place) -> None:
+    """Lays a picture likewise as the layer of heights: its brightness is how high the land lies."""
+    desk.say(f"Bringing in {path.name}")
+    desk.work(_Lay(path, place, AS_HEIGHT))

@@ -45,6 +45,9 @@ class BringIn:
         if w.text_button("Reference", "To look at and pick from while you paint; never exported", width=wide):
             bringing.as_reference(desk, self._path, self._place)
             return True
+        if w.text_button("Ground", "A height map: its brightness is how high the land lies", width=wide):
+            bringing.as_ground(desk, self._path, self._place)
+            return True
         if w.text_button("Texture", "Paint with it: it joins the ink", width=wide):
             pictured.from_file(desk, self._path)
             return True
