@@ -37,6 +37,7 @@ _AT_ONCE = 256 << 10  # bytes of data that are coded in one piece of work
 _SHARE = 2  # so many bytes are coded for each that a step brings, where nobody rested
 _TIGHT_PART = 4  # of the limit: what steps may hold while memory is tight
 _TIGHT_AT_ONCE = 4 << 20  # bytes of data that a step has coded then, beside its share
+_LOOKED_AT = 256  # records that wait to be made plain, at each step
 _TIGHT_STEPS = 8  # that are put away on disk with it
 
 
@@ -95,6 +96,7 @@ class History(Owned):
             for record in lost_records(before.root, after.root):
                 decode(record)
         self._root = after.root
+        _let_go(self._mixed, self._root, self.tight)
         self._done.push(Undoable(before, after, *difference(before.root, after.root)))
         self._forget()
         entries = self._done.entries  # none in a replay that keeps no step
@@ -199,6 +201,15 @@ def _has(root: Group | None, key: TileKey, record: Record) -> bool:
 def _shows(root: Group | None, tile: TilePlanes) -> bool:
     """Tells whether what was painted with examples in a state of the layers has a tile."""
     return root is not None and any(tile in growths.tiles_of(layer.growth) for layer in layers.layers(root))
+
+
+def _let_go(mixed: deque[tuple[TileKey, Record]], root: Group | None, tight: bool) -> None:
+    """Takes out some of the records that wait to be made plain and left the layers `root` meanwhile: where nobody
+    rests, they would stay for ever."""
+    for _ in range(min(len(mixed), _LOOKED_AT)):
+        key, record = mixed.popleft()
+        if _in_the_way(record, tight) and _has(root, key, record):
+            mixed.append((key, record))
 
 
 def _in_the_way(record: Record, tight: bool) -> bool:

@@ -93,6 +93,20 @@ ACTS = st.one_of(
 )
 
 
+def test_what_waits_to_be_made_plain_is_let_go_where_nobody_rests():
+    """Records that were of the present once; those of steps that were forgotten were held for ever."""
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
+    for n in range(8):
+        session.do(stroke(n))
+    code_all(session.history)
+    session.do(c.Undo(6))
+    assert session.history._mixed
+    for n in range(4):
+        session.do(stroke(n, radius=60.0))
+    now = set(records(session.painting))
+    assert all(record in now for _, record in session.history._mixed)
+
+
 @settings(deadline=None, max_examples=15)
 @given(st.lists(ACTS, min_size=4, max_size=24))
 def test_whatever_is_done_coded_states_are_what_they_were(acts):
