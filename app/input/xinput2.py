@@ -25,6 +25,7 @@ VALUATOR_CLASS = 2
 FLOATING_SLAVE, MASTER_POINTER, SLAVE_POINTER = 5, 1, 3
 _BUTTONS = {1: LEFT, 2: MIDDLE, 3: RIGHT, 8: BACK, 9: FORWARD}
 _WHEEL = {4: (0.0, 1.0), 5: (0.0, -1.0), 6: (1.0, 0.0), 7: (-1.0, 0.0)}
+_PATIENCE = 0.05  # seconds that whoever asks for events waits for the thread that reads them
 _ROLES = {"Abs Pressure": "pressure", "Abs Tilt X": "tilt_x", "Abs Tilt Y": "tilt_y"}
 
 
@@ -337,14 +338,19 @@ class XInput2Pointer:
             self._wake()
         self._lib.x.XCloseDisplay(self._display)
 
-    def _read(self) -> bool:
-        """Takes in what has come; whether there was anything."""
+    def _read(self, seconds: float = -1) -> bool:
+        """Takes in what has come; whether there was anything.  `seconds`: how long it waits for another thread that
+        reads, which never ends where the X server is gone; as long as it takes, unless told."""
         event, found = Event(), False
-        with self._reading:
+        if not self._reading.acquire(timeout=seconds):
+            return False
+        try:
             while self._lib.x.XPending(self._display):
                 self._lib.x.XNextEvent(self._display, event)
                 self._handle(event)
                 found = True
+        finally:
+            self._reading.release()
         return found
 
     def _handle(self, event: Event) -> None:
@@ -378,7 +384,7 @@ class XInput2Pointer:
     def events(self) -> list[PenEvent]:
         """Gives what came since the last call, in order."""
         out = []
-        self._read()
+        self._read(_PATIENCE)
         while self._queue:
             out.append(self._queue.popleft())
         return out
