@@ -49,11 +49,7 @@ _HEADER = (
 class Cookie(ct.Structure):
     """XGenericEventCookie."""
 
-    _fields_ = (
-        *_HEADER,
-        ("cookie", ct.c_uint),
-        ("data", ct.c_void_p),
-    )
+    _fields_ = (*_HEADER, ("cookie", ct.c_uint), ("data", ct.c_void_p))
 
 
 class Event(ct.Union):

@@ -81,7 +81,8 @@ def _of(old: Planes, ink: Instance) -> np.ndarray:
 
 def _grey(seen: np.ndarray) -> np.ndarray:
     """Returns how bright a texture is: float32 (h, w) of (1 or 3 or 4, h, w)."""
-    out: np.ndarray = seen[0] if len(seen) < _ALPHA else np.einsum("chw,c->hw", seen[:_ALPHA], LUMINANCE)
+    red, green, blue = LUMINANCE
+    out: np.ndarray = seen[0] if len(seen) < _ALPHA else seen[0] * red + seen[1] * green + seen[2] * blue
     return out
 
 

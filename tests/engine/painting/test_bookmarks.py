@@ -21,7 +21,7 @@ from engine.session.apply import STEPS, Painting, Refusal
 from engine.session.replay import replay
 from engine.session.session import Session
 
-DEEP = c.Bookmark("deep", 60.25, (3**200, -(5**90)), (1024.5, 768), -12.5, True, frozen({"eye": [0, 1, 2, 3.5]}))
+DEEP = c.Bookmark("deep", 60.25, (3**200, -(5**90)), (1024.5, 768), -12.5, True, frozen({"lens": [0, 1, 2, 3.5]}))
 NAMES = st.sampled_from("abcd")
 PLACES = st.builds(c.Bookmark, NAMES, st.floats(-99, 99), st.tuples(st.integers(), st.floats(-1e9, 1e9)))
 STEPS_AND_PLACES = st.lists(
