@@ -122,7 +122,7 @@ class Program:
         left, top, right, bottom = self.box(name, window)
         return slice(top, bottom), slice(left, right)
 
-    def until_gone(self, name: str, seconds: float = 30.0) -> None:
+    def until_gone(self, name: str, seconds: float = PATIENCE) -> None:
         """Waits until no control in sight has this name."""
         end = time.monotonic() + seconds
         while any(key[1] == name for key in self.boxes()):
@@ -186,7 +186,7 @@ class Program:
         """What the screen shows, uint8 (800, 1280, 3)."""
         return np.asarray(ImageGrab.grab(xdisplay=self.display).convert("RGB"))
 
-    def settled(self, seconds: float = 20.0, calm: int = 4) -> np.ndarray:
+    def settled(self, seconds: float = PATIENCE, calm: int = 4) -> np.ndarray:
         """The screen when it has not changed for a while: `calm` looks, 0.15 s apart."""
         end = time.monotonic() + seconds
         last, same = self.screen(), 0
@@ -203,7 +203,7 @@ class Program:
         self.move_to(REST)
         return self.settled(calm=calm)[60:740, 270:970].astype(int)
 
-    def comes_to(self, picture: np.ndarray, seconds: float = 30.0) -> bool:
+    def comes_to(self, picture: np.ndarray, seconds: float = 60.0) -> bool:
         """Whether the canvas shows exactly this, at once or when slow work is done: kernels may still be compiled."""
         end = time.monotonic() + seconds
         while not np.array_equal(self.canvas(), picture):

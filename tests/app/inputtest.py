@@ -58,7 +58,7 @@ class Pen:
 
     def __init__(self, path: Path) -> None:
         self._socket = socket.socket(socket.AF_UNIX)
-        end = time.monotonic() + 10
+        end = time.monotonic() + 90
         while not path.exists():
             assert time.monotonic() < end, "the driver made no socket"
             time.sleep(0.05)

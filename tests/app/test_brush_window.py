@@ -47,7 +47,7 @@ def test_a_brush_is_saved_under_a_name_and_there_again(program, tmp_path):
     app.fill("My pen")
     app.keys("Return")
     path = tmp_path / "config" / "inkfall" / "brushes" / "my-pen.json"
-    end = time.monotonic() + 20
+    end = time.monotonic() + 90
     while not path.exists():
         assert time.monotonic() < end
         time.sleep(0.1)

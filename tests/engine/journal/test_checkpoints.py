@@ -46,7 +46,7 @@ def paint(folder, rounds=6):
 
 def end_of_checkpoint(worker):
     """Waits until nothing is being written beside the journal."""
-    done, end = [], time.monotonic() + 30
+    done, end = [], time.monotonic() + 90
     while not done:
         story = read_story(worker._posts.journal.entry.folder)
         done = [point for point in story.checkpoints if point.commands == len(story.commands)]
@@ -99,7 +99,7 @@ def test_nothing_that_needs_kernels_is_begun_while_others_compile_them_and_then_
     assert not (folder / entries.PICTURE_FILE).exists()
     compiling[0] = False
     end_of_checkpoint(worker)
-    end = time.monotonic() + 30
+    end = time.monotonic() + 90
     while not (folder / entries.PICTURE_FILE).exists():
         assert time.monotonic() < end
         time.sleep(0.02)

@@ -34,7 +34,7 @@ def stroke(journal, answered=True):
 
 def settled(journal, folder):
     """The journal's folder, once all is written."""
-    end = time.monotonic() + 5
+    end = time.monotonic() + 90
     while not (journal.entry.folder and entries.read_about(journal.entry.folder) and journal.settled):
         assert time.monotonic() < end
         time.sleep(0.01)

@@ -20,7 +20,7 @@ from engine.studio import requests as q
 
 def until(told):
     """Waits for something."""
-    end = time.monotonic() + 20
+    end = time.monotonic() + 90
     while not told():
         assert time.monotonic() < end
         time.sleep(0.005)
