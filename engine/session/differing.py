@@ -11,6 +11,7 @@ from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
+from engine.canvas.rising.paged_level import PagedLevel, TilePlace, page_of
 from engine.canvas.store import RECORD_OVERHEAD, Change, Level, Pyramid, Record, changed_rects
 from engine.numeric.address import Rect, TileKey
 from engine.texture.example.tiles import TilePlanes
@@ -22,10 +23,63 @@ _FEW = 256  # places that are looked at one by one
 OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 
 
+class _Holding:
+    """The records in memory of a state of the layers, looked for in all of them: a copy of a layer shares them."""
+
+    def __init__(self, root: Group) -> None:
+        self._pyramids = [layer.pyramid for layer in layers.layers(root)]
+        self._levels: dict[int, list[Level]] = {}
+
+    def holds(self, key: TileKey, record: Record | None) -> bool:
+        """Tells whether some layer has a record at its place."""
+        place = key.x, key.y
+        return any(_in_memory(level, place) is record for level in self._of(key.level))
+
+    def lacks(self, pyramid: Pyramid) -> int:
+        """Counts the bytes in memory of what no layer has of a pyramid: of records, and of attenuations that wait."""
+        there_wait = {waits.change.serial for one in self._pyramids for waits in one.waiting()}
+        size = sum(waits.nbytes for waits in pyramid.waiting() if waits.change.serial not in there_wait)
+        for level, stored in pyramid.levels.items():
+            there = self._of(level)
+            if any(one is stored for one in there):
+                continue
+            for place, record in _all_in_memory(stored, there):
+                if not any(_in_memory(one, place) is record for one in there):
+                    size += record.nbytes
+        return size
+
+    def _of(self, level: int) -> list[Level]:
+        """Returns what the layers have of a level."""
+        found = self._levels.get(level)
+        if found is None:
+            stored = (pyramid.levels.get(level) for pyramid in self._pyramids)
+            found = self._levels[level] = [one for one in stored if one is not None]
+        return found
+
+
+def _in_memory(level: Level, place: TilePlace) -> Record | None:
+    """Returns the record of a tile; None if it has none, or that lies on disk."""
+    if not isinstance(level, PagedLevel):
+        return level.get(place)
+    page = level.pages.get(page_of(place))
+    return None if page is None else page.held[1].get(place)
+
+
+def _all_in_memory(stored: Level, beside: list[Level]) -> Iterator[tuple[TilePlace, Record]]:
+    """Yields the records in memory of a level with their places, but for pages that others have, too."""
+    if not isinstance(stored, PagedLevel):
+        yield from stored.items()
+        return
+    for at, page in stored.pages.items():
+        if not any(isinstance(one, PagedLevel) and one.pages.get(at) is page for one in beside):
+            yield from ((place, record) for place, record in page.held[1].items() if record is not None)
+
+
 def difference(old: Group, new: Group) -> tuple[int, int]:
-    """Returns bytes that only `old` holds, and bytes that only `new` holds."""
+    """Returns bytes that only `old` holds, and bytes that only `new` holds, in whichever layer."""
     before = {layer.id: layer for layer in layers.layers(old)}
     after = {layer.id: layer for layer in layers.layers(new)}
+    in_old, in_new = _Holding(old), _Holding(new)
     lost = gained = 0
     for number in before.keys() | after.keys():
         one, other = before.get(number), after.get(number)
@@ -35,12 +89,12 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
         if a is b:
             continue
         if a is None or b is None or a.uid != b.uid:
-            lost += a.nbytes if a is not None else 0
-            gained += b.nbytes if b is not None else 0
+            lost += in_new.lacks(a) if a is not None else 0
+            gained += in_old.lacks(b) if b is not None else 0
             continue
-        for _, here, there in _apart(a, b):
-            lost += _alone(here, there)
-            gained += _alone(there, here)
+        for key, here, there in _apart(a, b):
+            lost += 0 if in_new.holds(key, here) else _alone(here, there)
+            gained += 0 if in_old.holds(key, there) else _alone(there, here)
         lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
     return lost, gained
 

@@ -28,7 +28,7 @@ from engine.painting.value import Painting
 from engine.session.coding.coded_records import CodedData, decode
 from engine.session.coding.coded_tiles import decode_tile
 from engine.session.differing import apart_records, apart_tiles, difference, lost_records
-from engine.session.line import StepLine, Undoable
+from engine.session.line import StepLine, Undoable, counted
 from engine.session.old_commits import OldCommits
 from engine.texture.example.tiles import TilePlanes
 
@@ -112,8 +112,8 @@ class History(Owned):
 
     def _cross(self, one: StepLine, other: StepLine) -> Undoable:
         """Takes the nearest step from one side of the present to the other."""
-        step, part = one.pop()
-        other.push(step, part)
+        step = counted(one.pop())  # some of its records may be coded, and those of both ends were since it was pushed
+        other.push(step)
         left, self._root = step.after.root, step.before.root
         if other is self._done:
             left, self._root = self._root, left
@@ -132,11 +132,11 @@ class History(Owned):
         """The layers as they are now, further refined, are `root`."""
         self._root = root
         if self._done:
-            step, _ = self._done.pop()
+            step = self._done.pop()
             after = replace(step.after, root=root)
             self._done.push(Undoable(step.before, after, *difference(step.before.root, root)))
         if self._undone:
-            step, _ = self._undone.pop()
+            step = self._undone.pop()
             before = replace(step.before, root=root)
             self._undone.push(Undoable(before, step.after, *difference(root, step.after.root)))
 

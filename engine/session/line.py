@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from engine.canvas import layers
 from engine.canvas.layers import Group
@@ -21,7 +21,7 @@ STEP_OVERHEAD = 6000  # bytes of a step's own objects, roughly: most are nodes o
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Undoable:
-    """`lost`, `gained`: bytes held only by the painting before, and only by the one after."""
+    """`lost`, `gained`: bytes held only by the painting before, and only by the one after, as counted last."""
 
     before: Painting
     after: Painting
@@ -77,25 +77,21 @@ class StepLine:
         """Returns the bytes that the steps beyond the nearest hold."""
         return self.held - self.entries[-1].held if self.entries else 0
 
-    def push(self, step: Undoable, part: float = 1.0) -> None:
-        """Adds the nearest step; `part`: of its bytes, that it takes, as far as that is known before it is coded."""
-        self.entries.append(StepEntry(step, STEP_OVERHEAD + int(part * (_alone(step, self._undone) - STEP_OVERHEAD))))
+    def push(self, step: Undoable) -> None:
+        """Adds the nearest step, whose bytes were just counted."""
+        self.entries.append(StepEntry(step, _alone(step, self._undone)))
         self.held += self.entries[-1].held
 
-    def pop(self) -> tuple[Undoable, float]:
-        """Takes away the nearest step, as it is, and tells which part of its bytes it takes; IndexError if there is
-        none."""
+    def pop(self) -> Undoable:
+        """Takes away the nearest step, as it is; IndexError if there is none."""
         entry = self.entries.pop()
         self.held -= entry.held
-        begun = self._begun is not None and len(self.entries) == self._coded
-        if not (entry.coded or begun):
-            return entry.step, 1.0
-        self._coded -= entry.coded
-        self._away = min(self._away, self._coded)
-        self._begun = None
-        self._ways.forget()
-        held = _held_now(entry.step, self._undone) if begun else entry.held
-        return entry.step, (held - STEP_OVERHEAD) / max(_alone(entry.step, self._undone) - STEP_OVERHEAD, 1)
+        if entry.coded or (self._begun is not None and len(self.entries) == self._coded):
+            self._coded -= entry.coded
+            self._away = min(self._away, self._coded)
+            self._begun = None
+            self._ways.forget()
+        return entry.step
 
     def forget(self) -> None:
         """Forgets the farthest step."""
@@ -124,9 +120,8 @@ class StepLine:
             if size <= 0.0:
                 return size
         self._begun = None
-        held = _held_now(entry.step, self._undone)
-        self.held += held - entry.held
-        entry.held, entry.coded = held, True
+        self._take(entry, counted(entry.step))
+        entry.coded = True
         self._coded += 1
         return size
 
@@ -136,9 +131,14 @@ class StepLine:
         coded = (record.held for record in entry.records)
         saved = sum(put_away(held) for held in coded if isinstance(held, CodedData | CodedTile))
         entry.records.clear()
-        entry.held -= saved
-        self.held -= saved
+        self._take(entry, _saving(entry.step, saved, self._undone))
         self._away += 1
+
+    def _take(self, entry: StepEntry, step: Undoable) -> None:
+        """Has an entry hold its step with what that takes now."""
+        held = _alone(step, self._undone)
+        self.held += held - entry.held
+        entry.step, entry.held = step, held
 
     def press(self, size: float, count: int) -> None:
         """Codes so many bytes of the farthest steps, and puts so many steps away on disk."""
@@ -156,24 +156,26 @@ class StepLine:
         for key, record, other in apart_records(far, near):
             if not any(pyramid.holds(key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
                 size = record.held.nbytes
-                self._code(record, other)
+                saved = self._ways.encode(record, _ready(record, other, self._undone))
+                self._take(entry, _saving(entry.step, saved, self._undone))
                 entry.records.append(record)
                 yield size
         for tile in apart_tiles(far, near):
             size = tile.nbytes
-            encode_tile(tile)
+            self._take(entry, _saving(entry.step, encode_tile(tile), self._undone))
             entry.records.append(tile)
             yield size
 
-    def _code(self, record: Record, other: Record | None) -> None:
-        """Codes a record of a far end by the one in its place; of the steps that are done, which are forgotten one by
-        one, never by one that is farther."""
-        if not self._undone and other is not None:
-            if isinstance(record.held, CodedData) and record.held.other not in (None, other):
-                decode(record)
-            if leads_to(other, record):
-                decode(other)
-        self._ways.encode(record, other)
+
+def _ready(record: Record, other: Record | None, undone: bool) -> Record | None:
+    """Returns the record by which one of a far end is coded, the one in its place; of the steps that are done, which
+    are forgotten one by one, never one that is made of what is farther: that is made plain."""
+    if not undone and other is not None:
+        if isinstance(record.held, CodedData) and record.held.other not in (None, other):
+            decode(record)
+        if leads_to(other, record):
+            decode(other)
+    return other
 
 
 def _ends(step: Undoable, undone: bool) -> tuple[Group, Group]:
@@ -183,11 +185,16 @@ def _ends(step: Undoable, undone: bool) -> tuple[Group, Group]:
 
 
 def _alone(step: Undoable, undone: bool) -> int:
-    """Returns the bytes that the far end of a step alone takes, not coded."""
+    """Returns the bytes that the far end of a step alone takes, as counted last."""
     return (step.gained if undone else step.lost) + STEP_OVERHEAD
 
 
-def _held_now(step: Undoable, undone: bool) -> int:
-    """Counts the bytes that it takes now."""
+def counted(step: Undoable) -> Undoable:
+    """Returns a step with the bytes that its ends take now."""
     lost, gained = difference(step.before.root, step.after.root)
-    return (gained if undone else lost) + STEP_OVERHEAD
+    return replace(step, lost=lost, gained=gained)
+
+
+def _saving(step: Undoable, saved: int, undone: bool) -> Undoable:
+    """Returns a step whose far end takes so many bytes less."""
+    return replace(step, gained=step.gained - saved) if undone else replace(step, lost=step.lost - saved)

@@ -140,13 +140,16 @@ class Ways:
     def __init__(self) -> None:
         self._behind: dict[Record, int] = {}  # records that one not coded yet is to be made before
 
-    def encode(self, record: Record, other: Record | None) -> None:
-        """Makes a record smaller; `other`: the one that took its place, None for none."""
+    def encode(self, record: Record, other: Record | None) -> int:
+        """Makes a record smaller; `other`: the one that took its place, None for none.  Returns the bytes that it takes
+        less."""
         behind = self._behind.pop(record, 0)
         if other is not None and (behind >= WAY - 1 or leads_to(other, record)):
             other = None
-        if encode(record, other) and other is not None:
+        saved = encode(record, other)
+        if saved and other is not None:
             self._behind[other] = max(self._behind.get(other, 0), behind + 1)
+        return saved
 
     def forget(self) -> None:
         """Holds none of the records any more: the next ways may be longer."""
