@@ -64,6 +64,7 @@ class Asked:
     merge: Command | None = None
     merge_level: int = 0
     bake: BakePlacement | None = None
+    bake_loses: tuple[bool, bool] = (True, False)  # fine detail, and how thick its paint is
     film: FilmState = field(default_factory=FilmState)
     bringing: tuple[Path, Place] | None = None
 

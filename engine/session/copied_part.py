@@ -7,6 +7,8 @@ from dataclasses import replace
 from engine.canvas import layers
 from engine.canvas.attenuate import fold
 from engine.canvas.flatten import flattened
+from engine.canvas.heaps.heaps import own_lines
+from engine.canvas.heaps.joined_heaps import selected_of
 from engine.canvas.layers import Group, Layer
 from engine.canvas.merging.cleared import without
 from engine.canvas.node_checks import LayerError
@@ -27,8 +29,9 @@ def lifted(painting: Painting, command: DuplicateLayer) -> Painting:
     part = selected_paint(painting, node)
     number, role = layers.next_id(painting.root), COPIED if command.aside else ""
     made = replace(
-        node, id=number, name=command.to, locked=False, role=role, visible=not role, pyramid=part.branched(), growth=()
-    )
+        node, id=number, name=command.to, locked=False, role=role, visible=not role, pyramid=part.branched(), growth=(),
+        heaps=selected_of(node, painting.selection),
+    )  # fmt: skip
     if command.selected == CUT:
         painting = cleared(painting, command.name)
     group, position = layers.place(painting.root, command.name)
@@ -43,7 +46,8 @@ def with_copy(painting: Painting, name: str) -> Painting:
     """Returns the painting with what is selected of a layer, all of it where nothing is, held to be pasted."""
     node = _paint(painting, name)
     part = selected_paint(painting, node).branched()
-    return replace(painting, copied=replace(node, locked=False, role="", clip=False, pyramid=part, growth=()))
+    held = replace(node, locked=False, role="", clip=False, pyramid=part, growth=())
+    return replace(painting, copied=replace(held, heaps=selected_of(node, painting.selection)))
 
 
 def with_cut(painting: Painting, name: str) -> Painting:
@@ -73,6 +77,7 @@ def pasted(painting: Painting, node: Layer | None, to: str) -> Painting:
         raise Refusal(f"layer {to!r}: found nothing that was copied, expected something to paste")
     number = layers.next_id(painting.root)
     made = replace(node, id=number, name=to, visible=True, role="", pyramid=node.pyramid.branched())
+    made = replace(made, heaps=own_lines(node.heaps))
     return with_node(painting, made)
 
 

@@ -9,7 +9,7 @@ from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer
 from engine.canvas.merging.cleared import without
 from engine.canvas.node_checks import LayerError
-from engine.canvas.placing.baking import bake_levels, paint_of
+from engine.canvas.placing.baking import bake_levels, heaps_of, paint_of
 from engine.canvas.placing.placement import Placement
 from engine.canvas.selecting.mask_sheet import sheet_of
 from engine.canvas.selecting.placed_mask import mask_here
@@ -75,7 +75,8 @@ def made_paint(painting: Painting, node: Placement, level: int | None = None) ->
     exact."""
     paint = paint_of(settled_root(painting.root), replace(node, mask=None), painting.frame, painting.grid, level)
     kept = node.opacity, node.visible, node.blend
-    return Layer(node.id, node.name, *kept, pyramid=paint, role=node.role, clip=node.clip, mask=mask_here(node))
+    made = Layer(node.id, node.name, *kept, pyramid=paint, role=node.role, clip=node.clip, mask=mask_here(node))
+    return replace(made, heaps=heaps_of(painting.root, replace(node, mask=None)))
 
 
 def _own(selection: Selection) -> Selection:

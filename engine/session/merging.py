@@ -7,6 +7,7 @@ from dataclasses import replace
 from engine.canvas import layers
 from engine.canvas.flatten import flattened
 from engine.canvas.heaps.heaps import NO_HEAPS
+from engine.canvas.heaps.joined_heaps import joined, joined_of
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.cleared import framing, without
 from engine.canvas.merging.merged import merged_paint
@@ -43,7 +44,9 @@ def merged_down(painting: Painting, name: str) -> Painting:
     above = upper if onto else replace(upper, clip=False)
     paint = merged_paint(settled_root(root), (below, above), painting.grid)
     role = lower.role if not isinstance(lower, Group) else ""
+    heaps = joined_of((lower, upper))
     made = replace(_made(lower, paint, blend), opacity=lower.opacity if onto else 1.0, role=role)
+    made = replace(made, heaps=joined([(heaps, 1.0 / made.opacity if made.opacity else 1.0)]))
     if isinstance(lower, Layer):
         made = replace(made, scale=lower.scale, sea=lower.sea)
     root = layers.substitute(layers.remove(root, name), lower.name, made)
@@ -62,6 +65,7 @@ def flattened_group(painting: Painting, name: str) -> Painting:
     assert isinstance(settled, Group)
     paint = merged_paint(shown, settled.children, painting.grid)
     made = replace(_made(group, paint, group.blend), opacity=group.opacity, visible=group.visible, mask=group.mask)
+    made = replace(made, heaps=joined_of(settled.children))
     return _with_active(painting, layers.substitute(root, name, made), _inner(group), name)
 
 
@@ -77,7 +81,7 @@ def flattened_whole(painting: Painting) -> Painting:
         _check_unshown(root, node, {inner.id for one in seen for inner in _with_inner(one)})
     settled = layers.pictured(settled_root(root))
     paint = merged_paint(settled, tuple(node for node in settled.children if node.visible), painting.grid)
-    made = replace(_made(seen[0], paint, PLAIN_BLEND), opacity=1.0)
+    made = replace(_made(seen[0], paint, PLAIN_BLEND), opacity=1.0, heaps=joined_of(settled.children))
     gone = {inner.name for node in seen for inner in _with_inner(node)}
     merged = {node.id for node in seen} - {made.id}
     children = tuple(made if node.id == made.id else node for node in root.children if node.id not in merged)
@@ -145,6 +149,9 @@ def _check(root: Group, node: Node, stays: Node | None) -> None:
         raise LayerError(f"layer {node.name!r}: found it locked, expected one that is not")
     if not node.visible:
         raise LayerError(f"layer {node.name!r}: found it hidden, expected one that is seen")
+    for inner in _with_inner(node)[1:]:
+        if isinstance(inner, Layer) and inner.heaps and _aside(inner):
+            raise LayerError(f"layer {inner.name!r}: found it a {inner.role}, expected it outside of what is merged")
     if stays is None or stays is node:
         own = {inner.id for inner in _with_inner(node)}
         _check_unshown(root, node, own, None if stays is None else node.id)

@@ -9,8 +9,8 @@ from engine.studio.requests import Do
 
 def ask(desk: Desk, told: BakeTold, _now: float) -> None:
     """Makes paint of a placement, or asks whether it may lose detail."""
-    if told.loses:
-        desk.asked.bake = told.command
+    if told.loses or told.flat:
+        desk.asked.bake, desk.asked.bake_loses = told.command, (told.loses, told.flat)
         desk.asked.show("bake")
     else:
         desk.post(Do(told.command))

@@ -1,4 +1,4 @@
-"""The dialog before a placement becomes paint that is coarser than what it shows."""
+"""The dialog before a placement becomes paint that is coarser than what it shows, or flat."""
 
 from __future__ import annotations
 
@@ -19,7 +19,11 @@ class BakeDialog:
         command, width = desk.asked.bake, imgui.get_font_size() * 10
         if command is None:
             return False
-        imgui.text_unformatted(f"Detail finer than level {command.level} is lost in this layer.")
+        fine, flat = desk.asked.bake_loses
+        if fine:
+            imgui.text_unformatted(f"Detail finer than level {command.level} is lost in this layer.")
+        if flat:
+            imgui.text_unformatted("Its paint is flat: how thick it lies stays in its source.")
         imgui.text_disabled("What it shows stays in its source, every level of it.")
         imgui.spacing()
         if w.default_button("Make independent", "Make pixels of that level", width=width):

@@ -122,7 +122,7 @@ class _Merging:
         for x, y in sorted(places, key=lambda place: (place[1], place[0])):
             key = TileKey(level, x, y)
             values, shows[x, y] = self._values(key)
-            record = self._record(key, values)
+            record = left_of(self._made, key, values, self._cache)
             if record is not None:
                 found[x, y] = record
             self._count += 1
@@ -169,19 +169,20 @@ class _Merging:
                 shows |= {sheet.layer.id} if sheet.opacity == 1 else {sheet.layer.id, 0}
         return out, alone, shows
 
-    def _record(self, key: TileKey, values: Planes) -> Record | None:
-        """Returns what expand and ink leave of a tile's values."""
-        rect, unit = key.rect, self._made.step
-        above = evaluate(self._made, key.level - 1, rect.parents(), self._cache)
-        inks = merged(values.inks, above.inks)
-        here = Planes(np.ascontiguousarray(widened(values, inks).data), inks)
-        predicted = np.empty_like(here.data)
-        coarse = np.ascontiguousarray(above.data)
-        expand_into(coarse, 0, 0, plane_map(above.inks, inks), predicted, 0, TILE, unit)
-        if any(key.level > ink.base for ink in inks):
-            add_texture(predicted, here, key.level, rect, unit)
-        steps_left = np.rint((here.data - predicted) / unit).astype(np.int32)
-        return compact(_ALL_OF_IT, steps_left, inks, 0)
+
+def left_of(made: Pyramid, key: TileKey, values: Planes, cache: TileCache) -> Record | None:
+    """Returns what expand and ink leave of a tile's values, above which all levels of a pyramid are made."""
+    rect, unit = key.rect, made.step
+    above = evaluate(made, key.level - 1, rect.parents(), cache)
+    inks = merged(values.inks, above.inks)
+    here = Planes(np.ascontiguousarray(widened(values, inks).data), inks)
+    predicted = np.empty_like(here.data)
+    coarse = np.ascontiguousarray(above.data)
+    expand_into(coarse, 0, 0, plane_map(above.inks, inks), predicted, 0, TILE, unit)
+    if any(key.level > ink.base for ink in inks):
+        add_texture(predicted, here, key.level, rect, unit)
+    steps_left = np.rint((here.data - predicted) / unit).astype(np.int32)
+    return compact(_ALL_OF_IT, steps_left, inks, 0)
 
 
 def _around(places: Iterable[TilePlace]) -> Iterable[TilePlace]:

@@ -15,6 +15,7 @@ from engine.canvas.commit import commit
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.flatten import flattened
+from engine.canvas.heaps.heaps import NO_HEAPS, Heaps
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.laying import laid_at
 from engine.canvas.node_checks import LayerError
@@ -62,6 +63,27 @@ def paint_of(root: Group, node: Placement, frame: Rect, grid: int, level: int | 
     for clip in seen.clips:
         made = _cut(made, clip)
     return made
+
+
+def heaps_of(root: Group, node: Placement) -> Heaps:
+    """Returns what is heaped on the layer that a placement shows, as high as it is there; nothing where that is not
+    exact."""
+    layer, seen = _one_layer(root, node)
+    if layer is None or layer.wrap is not None or seen.similarity.quarter is None or seen.repeats:
+        return NO_HEAPS
+    out, levels = NO_HEAPS, seen.similarity.quarter[0]
+    for unit, heap in layer.heaps.items():
+        made = baked(heap, seen.similarity)
+        for clip in seen.clips:
+            made = _cut(made, clip)
+        out = out.set(unit + levels, made)
+    return out
+
+
+def leaves_heaps(root: Group, node: Placement) -> bool:
+    """Tells whether anything is heaped on what a placement shows that does not go along where it is baked."""
+    ways = ways_of(root, node)
+    return any(layer.heaps for layer, _ in ways) and not heaps_of(root, node)
 
 
 def _one_layer(root: Group, node: Placement) -> tuple[Layer | None, Seen]:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from immutables import Map
 
 from engine.canvas import layers
+from engine.canvas.heaps.heaps import NO_HEAPS
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.cleared import Outside, framing
 from engine.canvas.placing.placement import Placement
@@ -347,4 +348,4 @@ def _without_paint(node: Node) -> Node:
 
 def unpainted(layer: Layer) -> Layer:
     """Returns the same layer without any paint."""
-    return replace(layer, pyramid=Pyramid(), growth=())
+    return replace(layer, pyramid=Pyramid(), growth=(), heaps=NO_HEAPS)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from engine.canvas import layers
 from engine.canvas.flatten import flattened
-from engine.canvas.heaps.heaps import NO_HEAPS
+from engine.canvas.heaps.joined_heaps import moved
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.placing import loops
 from engine.canvas.placing.bake import baked
@@ -46,10 +46,7 @@ def _moved_node(node: Node, by: Similarity, own: set[int]) -> Node:
 def layer_moved(layer: Layer, by: Similarity) -> Layer:
     """Returns a layer with its paint elsewhere, its mask where it was."""
     paint = (flattened(layer) if layer.growth else layer).pyramid
-    heaps, levels = NO_HEAPS, (by.quarter or (0, 0))[0]
-    for unit, heap in layer.heaps.items():
-        heaps = heaps.set(unit + levels, baked(heap, by))
-    return replace(layer, pyramid=baked(paint, by), growth=(), heaps=heaps)
+    return replace(layer, pyramid=baked(paint, by), growth=(), heaps=moved(layer.heaps, by))
 
 
 def _moved_placement(node: Placement, by: Similarity, own: bool) -> Placement:

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 
 from engine.canvas import layers
 from engine.canvas.flatten import flattened
+from engine.canvas.heaps.heaps import NO_HEAPS, Heaps
+from engine.canvas.heaps.joined_heaps import joined, moved, selected_of
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.laid import laid_over
 from engine.canvas.node_checks import LayerError
@@ -25,11 +27,12 @@ from engine.session.moving import shown_from_beside
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LiftedPart:
-    """`layer`: as it is left; `part`: what of it was selected; `selection`: which that was."""
+    """`layer`: as it is left; `part`: what of it was selected, and `heaps` on it; `selection`: which that was."""
 
     layer: Layer
     part: Pyramid
     selection: Selection
+    heaps: Heaps = NO_HEAPS
 
 
 def lifted_part(painting: Painting, node: Node, way: str) -> LiftedPart:
@@ -47,7 +50,7 @@ def lifted_part(painting: Painting, node: Node, way: str) -> LiftedPart:
     left = layers.find((cleared(painting, node.name) if way == CUT else painting).root, node.name)
     assert isinstance(left, Layer)
     left = flattened(left) if left.growth else left
-    return LiftedPart(left, part.branched(), painting.selection)
+    return LiftedPart(left, part.branched(), painting.selection, selected_of(node, painting.selection))
 
 
 def part_moved(painting: Painting, node: Node, command: SetLayer) -> Painting:
@@ -63,8 +66,17 @@ def part_moved(painting: Painting, node: Node, command: SetLayer) -> Painting:
     if pose.similarity.quarter is None and command.baked is None:
         return replace(_with_part_above(painting, lifted, pose), selection=chosen)
     paint = _laid(painting, lifted, pose, command.baked)
-    root = layers.substitute(painting.root, node.name, replace(lifted.layer, pyramid=paint))
+    heaps = _heaped(node, lifted, pose)
+    root = layers.substitute(painting.root, node.name, replace(lifted.layer, pyramid=paint, heaps=heaps))
     return replace(painting, root=root, selection=chosen)
+
+
+def _heaped(node: Node, lifted: LiftedPart, pose: Pose) -> Heaps:
+    """Returns what is heaped on the layer then; what cannot go along stays where it was, so that it is not lost."""
+    assert isinstance(node, Layer)
+    if not lifted.heaps or pose.similarity.quarter is None:
+        return node.heaps
+    return joined([(lifted.layer.heaps, 1.0), (moved(lifted.heaps, pose.similarity), 1.0)])
 
 
 def _laid(painting: Painting, lifted: LiftedPart, pose: Pose, level: int | None) -> Pyramid:
@@ -87,7 +99,7 @@ def _shown_alone(paint: Pyramid, pose: Pose) -> tuple[Group, Placement]:
 def _with_part_above(painting: Painting, lifted: LiftedPart, pose: Pose) -> Painting:
     """Returns the painting with what was taken out of a layer on one above it, which a placement shows."""
     root, name = painting.root, layers.free_name(painting.root, f"{lifted.layer.name} part")
-    made = replace(lifted.layer, id=layers.next_id(root), name=name, pyramid=lifted.part)
+    made = replace(lifted.layer, id=layers.next_id(root), name=name, pyramid=lifted.part, heaps=lifted.heaps)
     group, position = _place_above(root, lifted.layer)
     root = layers.insert(layers.substitute(root, lifted.layer.name, lifted.layer), made, group, position)
     return replace(painting, root=shown_from_beside(root, made, pose), active=name)

@@ -55,10 +55,12 @@ class AskBake:
 
 @dataclass(frozen=True, slots=True)
 class BakeTold:
-    """The command that makes paint of a placement; `loses`: detail finer than its level."""
+    """The command that makes paint of a placement; `loses`: detail finer than its level; `flat`: not how
+    thick it lies."""
 
     command: BakePlacement
     loses: bool
+    flat: bool = False
 
 
 MoveRequest = Try | AskExtent | FitFrame | AskBake

@@ -8,7 +8,7 @@ from typing import Any
 
 from engine.canvas import layers
 from engine.canvas.node_checks import LayerError
-from engine.canvas.placing.baking import bake_levels
+from engine.canvas.placing.baking import bake_levels, leaves_heaps
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED
 from engine.checks.owned import Owned
@@ -82,12 +82,13 @@ class Moves(Owned):
             if not isinstance(node, Placement):
                 return
             found = bake_levels(settled_root(painting.root), node, painting.frame)
+            flat = leaves_heaps(painting.root, replace(node, mask=None))
         except LayerError as error:
             self._easel.send(Note(str(error), bad=True))
             return
         level = None if found is None else found.level
         loses = found is not None and found.level < found.finest
-        self._easel.send(BakeTold(BakePlacement(request.name, level), loses))
+        self._easel.send(BakeTold(BakePlacement(request.name, level), loses, flat))
 
     def _part(self, painting: Painting, name: str, way: str) -> LiftedPart:
         """Returns what is selected of a layer, taken out of it: it is asked for again with each move of the hand."""
