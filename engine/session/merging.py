@@ -7,7 +7,7 @@ from dataclasses import replace
 from engine.canvas import layers
 from engine.canvas.flatten import flattened
 from engine.canvas.heaps.heaps import NO_HEAPS
-from engine.canvas.heaps.joined_heaps import joined, joined_of
+from engine.canvas.heaps.joined_heaps import heaps_joined, joined_of
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.cleared import framing, without
 from engine.canvas.merging.merged import merged_paint
@@ -46,7 +46,7 @@ def merged_down(painting: Painting, name: str) -> Painting:
     role = lower.role if not isinstance(lower, Group) else ""
     heaps = joined_of((lower, upper))
     made = replace(_made(lower, paint, blend), opacity=lower.opacity if onto else 1.0, role=role)
-    made = replace(made, heaps=joined([(heaps, 1.0 / made.opacity if made.opacity else 1.0)]))
+    made = replace(made, heaps=heaps_joined([(heaps, 1.0 / made.opacity if made.opacity else 1.0)]))
     if isinstance(lower, Layer):
         made = replace(made, scale=lower.scale, sea=lower.sea)
     root = layers.substitute(layers.remove(root, name), lower.name, made)

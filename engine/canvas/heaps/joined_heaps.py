@@ -32,7 +32,7 @@ _ALPHA = 3
 Part = tuple[Pyramid, float]  # a heap, and how many times its heights are taken
 
 
-def joined(parts: Iterable[tuple[Heaps, float]]) -> Heaps:
+def heaps_joined(parts: Iterable[tuple[Heaps, float]]) -> Heaps:
     """Returns heaps, each so many times as high, as one."""
     by_unit: dict[int, list[Part]] = {}
     for heaps, times in parts:
@@ -51,14 +51,14 @@ def _sum(parts: list[Part]) -> Pyramid:
     for level in sorted({level for heap, _ in parts for level in heap.levels}):
         places = sorted({place for heap, _ in parts for place in heap.levels.get(level, ())})
         keys = [TileKey(level, *place) for place in places]
-        records = {(key.x, key.y): left_of(made, key, _added(parts, key, cache), cache) for key in keys}
+        records = {(key.x, key.y): left_of(made, key, _seen_together(parts, key, cache), cache) for key in keys}
         kept = {place: record for place, record in records.items() if record is not None}
         if kept:
             made = replace(made, levels=made.levels.set(level, level_of(kept)))
     return made
 
 
-def _added(parts: list[Part], key: TileKey, cache: TileCache) -> Planes:
+def _seen_together(parts: list[Part], key: TileKey, cache: TileCache) -> Planes:
     """Returns what heaps hold together in a tile, as far as one has room."""
     seen = [(evaluate(heap, key.level, key.rect, cache), times) for heap, times in parts]
     inks = merged(*(planes.inks for planes, _ in seen))
@@ -72,20 +72,20 @@ def _added(parts: list[Part], key: TileKey, cache: TileCache) -> Planes:
 
 def joined_of(nodes: Iterable[Node]) -> Heaps:
     """Returns what is heaped on nodes that are merged, those that show, each as high as it is seen."""
-    return joined((layer.heaps, opacity) for layer, opacity in _shown(nodes, 1.0))
+    return heaps_joined((layer.heaps, opacity) for layer, opacity in _heaping_layers(nodes, 1.0))
 
 
-def _shown(nodes: Iterable[Node], opacity: float) -> Iterator[tuple[Layer, float]]:
+def _heaping_layers(nodes: Iterable[Node], opacity: float) -> Iterator[tuple[Layer, float]]:
     for node in nodes:
         if not node.visible or isinstance(node, Placement):
             continue
         if isinstance(node, Group):
-            yield from _shown(node.children, opacity * node.opacity)
+            yield from _heaping_layers(node.children, opacity * node.opacity)
         else:
             yield node, opacity * node.opacity
 
 
-def moved(heaps: Heaps, by: Similarity) -> Heaps:
+def heaps_moved(heaps: Heaps, by: Similarity) -> Heaps:
     """Returns heaps as they lie by quarter turns and powers of two: as high as they become wide."""
     assert by.quarter is not None
     return immutables.Map({unit + by.quarter[0]: baked(heap, by) for unit, heap in heaps.items()})

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from engine.canvas import layers
 from engine.canvas.flatten import flattened
-from engine.canvas.heaps.joined_heaps import moved
+from engine.canvas.heaps.joined_heaps import heaps_moved
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.placing import loops
 from engine.canvas.placing.bake import baked
@@ -46,7 +46,7 @@ def _moved_node(node: Node, by: Similarity, own: set[int]) -> Node:
 def layer_moved(layer: Layer, by: Similarity) -> Layer:
     """Returns a layer with its paint elsewhere, its mask where it was."""
     paint = (flattened(layer) if layer.growth else layer).pyramid
-    return replace(layer, pyramid=baked(paint, by), growth=(), heaps=moved(layer.heaps, by))
+    return replace(layer, pyramid=baked(paint, by), growth=(), heaps=heaps_moved(layer.heaps, by))
 
 
 def _moved_placement(node: Placement, by: Similarity, own: bool) -> Placement:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from engine.canvas import layers
 from engine.canvas.flatten import flattened
 from engine.canvas.heaps.heaps import NO_HEAPS, Heaps
-from engine.canvas.heaps.joined_heaps import joined, moved, selected_of
+from engine.canvas.heaps.joined_heaps import heaps_joined, heaps_moved, selected_of
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.laid import laid_over
 from engine.canvas.node_checks import LayerError
@@ -76,7 +76,7 @@ def _heaped(node: Node, lifted: LiftedPart, pose: Pose) -> Heaps:
     assert isinstance(node, Layer)
     if not lifted.heaps or pose.similarity.quarter is None:
         return node.heaps
-    return joined([(lifted.layer.heaps, 1.0), (moved(lifted.heaps, pose.similarity), 1.0)])
+    return heaps_joined([(lifted.layer.heaps, 1.0), (heaps_moved(lifted.heaps, pose.similarity), 1.0)])
 
 
 def _laid(painting: Painting, lifted: LiftedPart, pose: Pose, level: int | None) -> Pyramid:

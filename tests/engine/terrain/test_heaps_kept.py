@@ -7,7 +7,7 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
-from engine.canvas.heaps.joined_heaps import joined
+from engine.canvas.heaps.joined_heaps import heaps_joined
 from engine.canvas.heaps.seen_heaps import heaped_on, thickness
 from engine.canvas.placing.baking import leaves_heaps
 from engine.numeric.address import Rect
@@ -89,11 +89,11 @@ def test_what_lies_on_one_layer_alone_keeps_its_bits():
 def test_the_sum_of_heaps_is_their_sum_and_no_higher_than_one_holds(two):
     own, other = (layers.find(two.root, name).heaps for name in ("Layer 1", "Layer 2"))
     (unit,) = own
-    both = joined([(own, 1.0), (other, 1.0)])
+    both = heaps_joined([(own, 1.0), (other, 1.0)])
     assert {*both} == {*own, *other}
     read = [evaluate(heaps[unit], 0, FRAME).data[0] for heaps in (own, other, both) if unit in heaps]
     assert np.array_equal(sum(read[:-1]), read[-1])
-    full = joined([(own, 1.0)] * 80)[unit]
+    full = heaps_joined([(own, 1.0)] * 80)[unit]
     assert evaluate(full, 0, FRAME).data[0].max() == 8.0
 
 
