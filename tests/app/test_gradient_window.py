@@ -36,6 +36,7 @@ def test_a_drag_fills_the_frame_from_one_colour_to_the_other_in_one_step(program
     app.keys("ctrl+z")
     until(app, lambda row: (row == paper).all())
     app.click("Transparent")
+    app.canvas()  # a loaded machine sees the drag begin before the click
     app.do("mousemove", FROM, ROW, "mousedown", 1, "mousemove", 500, ROW, "mousemove", TO, ROW, "mouseup", 1)
     app.park()
     row = until(app, lambda row: (row[:35] == 0).all() and (row[615:] == paper[615:]).all())
