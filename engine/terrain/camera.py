@@ -14,6 +14,7 @@ from engine.terrain.drape import Cover
 from engine.terrain.height_window import FINEST_TOLD, in_pixels
 from engine.terrain.layer_heights import Pixel
 from engine.terrain.plane import DEEP, Land
+from engine.terrain.seen.eye import axes_of
 
 CELLS = 1024  # of a window's side
 _APART = 2  # levels between windows
@@ -36,11 +37,8 @@ class Camera:
     fov: float = 60.0
 
     def axes(self) -> np.ndarray:
-        """Returns right, up and forward (3, 3); x to the right of the canvas, y down it, z up from it."""
-        a, t = math.radians(self.azimuth), math.radians(self.tilt)
-        right = np.array([math.cos(a), math.sin(a), 0.0])
-        forward = np.array([math.sin(a) * math.cos(t), -math.cos(a) * math.cos(t), math.sin(t)])
-        return np.stack([right, np.cross(forward, right), forward])
+        """Returns right, up and forward (3, 3), as `axes_of`."""
+        return axes_of(self.azimuth, self.tilt)
 
     def finest(self, size: tuple[int, int]) -> int:
         """Returns the level whose pixels are no larger than those of a picture of that size, at the nearest ground."""

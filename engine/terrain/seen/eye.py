@@ -12,6 +12,15 @@ _KEPT = 96  # binary places of pixels of level 0 that a place keeps
 STEEPEST_TILT = 89.0  # degrees that one may look up or down
 
 
+def axes_of(azimuth: float, tilt: float) -> np.ndarray:
+    """Returns right, up and forward (3, 3) of who looks there, degrees; x to the right of the canvas, y down it, z up
+    from it."""
+    a, t = math.radians(azimuth), math.radians(tilt)
+    right = np.array([math.cos(a), math.sin(a), 0.0])
+    forward = np.array([math.sin(a) * math.cos(t), -math.cos(a) * math.cos(t), math.sin(t)])
+    return np.stack([right, np.cross(forward, right), forward])
+
+
 @dataclass(frozen=True, slots=True)
 class Eye:
     """An eye at (x, y), pixels of level 0, `z` pixels of level 0 above the sea; it looks `azimuth` degrees clockwise
@@ -25,11 +34,8 @@ class Eye:
     fov: float = 55.0
 
     def axes(self) -> np.ndarray:
-        """Returns right, up and forward (3, 3); x to the right of the canvas, y down it, z up from it."""
-        a, t = math.radians(self.azimuth), math.radians(self.tilt)
-        right = np.array([math.cos(a), math.sin(a), 0.0])
-        forward = np.array([math.sin(a) * math.cos(t), -math.cos(a) * math.cos(t), math.sin(t)])
-        return np.stack([right, np.cross(forward, right), forward])
+        """Returns right, up and forward (3, 3), as `axes_of`."""
+        return axes_of(self.azimuth, self.tilt)
 
     def direction(self, x: float, y: float, size: tuple[int, int]) -> np.ndarray:
         """Returns where a point of a picture of `size` lies from here: length 1."""
