@@ -1,4 +1,5 @@
-"""What differs between two states of the layers: records that only one of them has, and the bytes that these take."""
+"""What differs between two states of the layers: records that only one of them has, of paint, of heaps or of masks, and
+the bytes that these take."""
 
 from __future__ import annotations
 
@@ -14,6 +15,7 @@ from engine.canvas.layers import Group
 from engine.canvas.rising.paged_level import PagedLevel, TilePlace, page_of
 from engine.canvas.store import RECORD_OVERHEAD, Change, Level, Pyramid, Record, changed_rects
 from engine.numeric.address import Rect, TileKey
+from engine.session.held_pyramids import pyramids
 from engine.texture.example.tiles import TilePlanes
 from engine.texture.sparse_planes import SparsePlanes
 
@@ -27,7 +29,7 @@ class _Holding:
     """The records in memory of a state of the layers, looked for in all of them: a copy of a layer shares them."""
 
     def __init__(self, root: Group) -> None:
-        self._pyramids = [layer.pyramid for layer in layers.layers(root)]
+        self._pyramids = list(pyramids(root).values())
         self._levels: dict[int, list[Level]] = {}
 
     def holds(self, key: TileKey, record: Record | None) -> bool:
@@ -85,16 +87,18 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
         one, other = before.get(number), after.get(number)
         lost += _regrown(one.growth if one else (), other.growth if other else ())
         gained += _regrown(other.growth if other else (), one.growth if one else ())
-        a, b = one.pyramid if one else None, other.pyramid if other else None
+    here, there = pyramids(old), pyramids(new)
+    for sheet in here.keys() | there.keys():
+        a, b = here.get(sheet), there.get(sheet)
         if a is b:
             continue
         if a is None or b is None or a.uid != b.uid:
             lost += in_new.lacks(a) if a is not None else 0
             gained += in_old.lacks(b) if b is not None else 0
             continue
-        for key, here, there in _apart(a, b):
-            lost += 0 if in_new.holds(key, here) else _alone(here, there)
-            gained += 0 if in_old.holds(key, there) else _alone(there, here)
+        for key, record, beside in _apart(a, b):
+            lost += 0 if in_new.holds(key, record) else _alone(record, beside)
+            gained += 0 if in_old.holds(key, beside) else _alone(beside, record)
         lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
     return lost, gained
 
@@ -123,19 +127,19 @@ def _regrown(one: Growth, other: Growth) -> int:
 
 def changed_records(far: Group, near: Group) -> Iterator[OnlyHere]:
     """Yields the records that one of two states of the layers has and the other has not, of layers that both have."""
-    there = {layer.id: layer.pyramid for layer in layers.layers(near)}
-    for layer in layers.layers(far):
-        other = there.get(layer.id)
-        if other is not None and other is not layer.pyramid and other.uid == layer.pyramid.uid:
-            yield from _only(layer.pyramid, other)
+    there = pyramids(near)
+    for sheet, pyramid in pyramids(far).items():
+        other = there.get(sheet)
+        if other is not None and other is not pyramid and other.uid == pyramid.uid:
+            yield from _only(pyramid, other)
 
 
 def apart_records(far: Group, near: Group) -> Iterator[OnlyHere]:
     """As `changed_records`, and those of layers that the other state has not."""
-    there = {layer.id: layer.pyramid.uid for layer in layers.layers(near)}
-    for layer in layers.layers(far):
-        if there.get(layer.id) != layer.pyramid.uid:
-            yield from ((key, record, None) for key, record in layer.pyramid.all_records())
+    there = {sheet: pyramid.uid for sheet, pyramid in pyramids(near).items()}
+    for sheet, pyramid in pyramids(far).items():
+        if there.get(sheet) != pyramid.uid:
+            yield from ((key, record, None) for key, record in pyramid.all_records())
     yield from changed_records(far, near)
 
 
@@ -149,10 +153,10 @@ def apart_tiles(far: Group, near: Group) -> set[TilePlanes]:
 
 def lost_records(old: Group, new: Group) -> Iterator[Record]:
     """Yields the records that one state of the layers has and a later one has not."""
-    there = {layer.id for layer in layers.layers(new)}
-    for layer in layers.layers(old):
-        if layer.id not in there:
-            yield from (record for _, record in layer.pyramid.all_records())
+    there = pyramids(new)
+    for sheet, pyramid in pyramids(old).items():
+        if sheet not in there:
+            yield from (record for _, record in pyramid.all_records())
     yield from (record for _, record, _ in changed_records(old, new))
 
 

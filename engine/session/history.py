@@ -28,6 +28,7 @@ from engine.painting.value import Painting
 from engine.session.coding.coded_records import CodedData, decode
 from engine.session.coding.coded_tiles import decode_tile
 from engine.session.differing import apart_records, apart_tiles, difference, lost_records
+from engine.session.held_pyramids import pyramids
 from engine.session.line import StepLine, Undoable, counted
 from engine.session.old_commits import OldCommits
 from engine.texture.example.tiles import TilePlanes
@@ -195,7 +196,7 @@ class History(Owned):
 
 def _has(root: Group | None, key: TileKey, record: Record) -> bool:
     """Tells whether a state of the layers has a record."""
-    return root is not None and any(layer.pyramid.holds(key, record) for layer in layers.layers(root))
+    return root is not None and any(pyramid.holds(key, record) for pyramid in pyramids(root).values())
 
 
 def _shows(root: Group | None, tile: TilePlanes) -> bool:

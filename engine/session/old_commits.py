@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from engine.canvas import layers
 from engine.canvas.layers import Group
 from engine.canvas.store import Change
+from engine.session.held_pyramids import pyramids
 
 EACH = 4096  # steps from which on those before the oldest that was there then are forgotten
 
@@ -25,5 +25,5 @@ class OldCommits:
         self._steps = 0
         for change in self._oldest:
             change.forget_before()
-        states = (layer.pyramid.last for layer in layers.layers(oldest))
+        states = (pyramid.last for pyramid in pyramids(oldest).values())
         self._oldest = [change for change in states if change is not None]

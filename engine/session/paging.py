@@ -16,6 +16,7 @@ from engine.canvas.store import Pyramid, Record
 from engine.session.coding.coded_records import CodedData, encode, put_away
 from engine.session.coding.coded_tiles import CodedTile, encode_tile
 from engine.session.coding.paged_records import put_page_away
+from engine.session.held_pyramids import pyramids
 from engine.texture.sparse_planes import SparsePlanes
 
 _SMALL = 2 << 10  # bytes of data that are not worth it
@@ -67,20 +68,20 @@ class Paging:
 
 def _freed(root: Group, level: int | None) -> Iterator[int]:
     """Makes one record after the other smaller; yields the bytes that were freed."""
-    pyramids = [layer.pyramid for layer in layers(root)]
-    for pyramid in pyramids:
+    held = pyramids(root).values()
+    for pyramid in held:
         for k in _farthest_first(pyramid, level):
             stored = pyramid.levels[k]
             if isinstance(stored, PagedLevel):
                 yield from (put_page_away(page, pyramid.depth - _OF_LATE) for page in stored.pages.values())
     for late in (False, True):
-        for pyramid in pyramids:
+        for pyramid in held:
             for record in _records(pyramid, level):
                 old = record.depth <= pyramid.depth - _OF_LATE
                 plain = isinstance(record.held, np.ndarray | SparsePlanes)
                 worth = (late or old) and plain and record.held.nbytes >= _SMALL
                 yield encode(record, None) if worth else 0
-    for pyramid in pyramids:
+    for pyramid in held:
         for record in _records(pyramid, level):
             yield put_away(record.held) if isinstance(record.held, CodedData) else 0
     grown = [tile for layer in layers(root) for tile in growths.tiles_of(layer.growth)]

@@ -98,12 +98,12 @@ def _wake(dues: list[float], over: Event) -> None:
 def _held(window: Window, sessions: list[Callable[[], Any]]) -> dict[str, Any]:
     """What the program says that it holds, bytes, and where the journal is."""
     session = sessions[-1]()
-    from engine.canvas.layers import layers
+    from engine.session.held_pyramids import pyramids
 
     entry = window.engine.worker.entry
     files = [path.stat().st_size for path in entry.iterdir()] if entry is not None else []
     return {
-        "records": sum(layer.pyramid.nbytes for layer in layers(session.painting.root)),
+        "records": sum(pyramid.nbytes for pyramid in pyramids(session.painting.root).values()),
         "history": session.history.held,
         "cache": session.cache.held,
         "steps": session.history.undo_count,

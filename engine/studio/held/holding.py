@@ -9,6 +9,7 @@ from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.keeping.spill import spill
 from engine.painting.value import Painting
+from engine.session.held_pyramids import pyramids
 from engine.session.session import Session
 from engine.studio.easel import Easel
 from engine.studio.held.held_records import Held
@@ -43,7 +44,7 @@ def held_by(session: Session) -> tuple[tuple[str, int], ...]:
     """Returns who holds how many bytes, in the words of who paints."""
     painting = session.painting
     return (
-        ("Painting", sum(layer.pyramid.nbytes for layer in layers(painting.root))),
+        ("Painting", sum(pyramid.nbytes for pyramid in pyramids(painting.root).values())),
         ("Undo", session.history.held),
         ("What is on the screen", session.cache.held),
         ("Pictures", _pictures(painting)),
