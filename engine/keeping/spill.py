@@ -5,6 +5,7 @@ Where the system allows it the file has no name, so that nothing is left of it h
 
 from __future__ import annotations
 
+import atexit
 import tempfile
 import threading
 import zlib
@@ -129,5 +130,7 @@ def spill_folder() -> Path:
 
 @cache
 def spill() -> Spill:
-    """Returns the program's own file."""
-    return Spill()
+    """Returns the program's own file, which is closed when that ends."""
+    made = Spill()
+    atexit.register(made.close)
+    return made

@@ -2,6 +2,8 @@
 
 import errno
 import os
+import subprocess
+import sys
 
 import pytest
 from hypothesis import given, settings
@@ -47,6 +49,14 @@ def test_nobody_else_finds_the_file_and_nothing_is_left_of_it(tmp_path, spill):
     assert not list(tmp_path.iterdir())
     with pytest.raises(OSError, match="is closed"):
         put.read()
+
+
+def test_the_program_closes_its_own_file_when_it_ends(tmp_path):
+    words = "from engine.keeping.spill import spill; kept = spill().put(bytes(600)); assert kept.read() == bytes(600)"
+    command = [sys.executable, "-X", "dev", "-c", words]
+    home = {"XDG_STATE_HOME": str(tmp_path), "LOCALAPPDATA": str(tmp_path)}
+    ended = subprocess.run(command, env=os.environ | home, capture_output=True, text=True, check=True)
+    assert ended.stderr == ""
 
 
 def test_nothing_is_put_away_where_there_is_no_folder_or_no_room(tmp_path, spill, monkeypatch):
