@@ -145,9 +145,14 @@ class History(Owned):
     def pending(self) -> int:
         """Counts the steps to be coded, or put away on disk, and whether the present is to be looked through, while
         nothing else is to be done."""
-        coding = sum(max(0, line.plain - self._at_hand) for line in (self._done, self._undone))
-        crowded = self._done.in_memory > 0 and (self.tight or self._done.beyond > 0.75 * self._limit)
+        coding = sum(max(0, line.plain - self._at_hand) for line in self._lines)
+        full = self.tight or sum(line.beyond for line in self._lines) > 0.75 * self._limit
+        crowded = full and any(line.in_memory for line in self._lines)
         return coding + int(len(self._mixed) + len(self._grown) > 0) + int(crowded)
+
+    @property
+    def _lines(self) -> tuple[StepLine, StepLine]:
+        return self._done, self._undone
 
     @property
     def _at_hand(self) -> int:
@@ -167,11 +172,12 @@ class History(Owned):
             if not self.tight and _shows(self._root, tile):
                 decode_tile(tile)
                 return
-        line = max(self._done, self._undone, key=lambda line: line.plain)
+        line = max(self._lines, key=lambda line: line.plain)
+        coded = max(self._lines, key=lambda line: line.in_memory)
         if line.plain > self._at_hand:
             line.code(_AT_ONCE)
-        elif self._done.in_memory:
-            self._done.put_away()
+        elif coded.in_memory:
+            coded.put_away()
 
     def _forget(self) -> None:
         """Codes as much again as the newest step brought where nobody rested for long, so that each costs the same, and

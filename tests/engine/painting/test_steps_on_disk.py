@@ -11,13 +11,16 @@ from hypothesis import strategies as st
 from stepped import ROCK, contents
 
 from engine.canvas import layers
+from engine.canvas.tile_cache import TileCache
 from engine.keeping.recent import Recent
 from engine.keeping.spill import Spill, Spilled
 from engine.numeric.address import Rect
 from engine.painting import commands as c
+from engine.painting.value import Painting
 from engine.session.coding import coded_records
 from engine.session.coding.coded_records import CodedData
 from engine.session.history import History
+from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio.studio import Studio
 
@@ -127,6 +130,33 @@ def test_what_steps_had_on_disk_is_free_when_they_are_gone(disk, monkeypatch):
     monkeypatch.setattr(coded_records, "_KEPT", Recent(lambda: 0))  # of what was asked for of late, nothing
     disk.put(b"")
     assert disk.held == 0
+
+
+@pytest.mark.parametrize("limit", [None, 40_000])
+def test_what_was_undone_goes_to_disk_too_where_there_is_no_room_and_is_done_again_as_it_was(disk, limit):
+    disk.room = 1 << 30
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
+    for n in range(14):
+        session.do(stroke(n, radius=9.0))
+    history = session.history
+    states = [contents(end.after, depth=False) for end in history.steps.done]
+    session.do(c.Undo(13))
+    assert disk.held == 0
+    plain = history.held
+    if limit is None:
+        history.tight = True
+    else:
+        history._limit = limit
+    undone = history._undone
+    while history.pending:
+        history.step()
+    assert undone.plain == undone.in_memory == 0
+    assert disk.held > 0
+    assert 0 < history.held < plain / 2
+    coded_records.forget_made(1 << 40)
+    for wanted in states[1:]:
+        session.do(c.Redo(1))
+        assert contents(session.painting, depth=False) == wanted
 
 
 def test_no_interrupt_gets_lost_while_pieces_are_let_go(tmp_path):
