@@ -61,6 +61,7 @@ class History(Owned):
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
         self._done, self._undone = StepLine(False, steps.done), StepLine(True, steps.undone)
+        self._lines = self._done, self._undone
         self._bytes_cap, self._keep = bytes_cap, keep
         # Those that a replay keeps, because it takes them back, may take as much as any.
         self._limit = math.inf if bytes_cap is None else bytes_cap or memory.history_share()
@@ -149,10 +150,6 @@ class History(Owned):
         full = self.tight or sum(line.beyond for line in self._lines) > 0.75 * self._limit
         crowded = full and any(line.in_memory for line in self._lines)
         return coding + int(len(self._mixed) + len(self._grown) > 0) + int(crowded)
-
-    @property
-    def _lines(self) -> tuple[StepLine, StepLine]:
-        return self._done, self._undone
 
     @property
     def _at_hand(self) -> int:
