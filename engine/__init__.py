@@ -10,28 +10,41 @@ from pathlib import Path
 
 import platformdirs
 
-_KEPT = 256 << 20  # bytes of freed memory the process may hold on to
 _HEAPS = 2  # for threads: what one that has ended left free is there for others
-_BY_ITSELF = 32 << 20  # bytes from which an array is mapped by itself (the largest value the C library takes)
+_TRIM_THRESHOLD, _TOP_PAD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -2, -3, -8
+# Bytes of freed memory the process may hold on to, and from which an array is mapped by itself (the largest value the
+# C library takes): while there is room, and while there is little.
+_ROOMY, _SPARING = (256 << 20, 32 << 20), (32 << 20, 1 << 20)
 
 
 def _keep_freed_memory() -> None:
-    """Let the C library reuse freed pages instead of giving them back after every array.
+    """Has the C library use freed pages again instead of giving them back after every array.
 
     A fresh page costs a fault, and a view of thirteen planes has 27,000 of them: evaluating it takes 3 to 5 times as
     long when each array starts on fresh pages.  glibc only; elsewhere nothing happens.
     """
+    _set({_ARENA_MAX: _HEAPS})
+    spare_memory(False)
+
+
+def spare_memory(sparing: bool) -> None:
+    """Has large arrays mapped by themselves, so that their pages go back at once, or freed pages kept again.
+
+    Between blocks in use what they leave piles up to several hundred megabytes.
+    """
+    kept, by_itself = _SPARING if sparing else _ROOMY
+    _set({_TRIM_THRESHOLD: kept, _TOP_PAD: kept // 8, _MMAP_THRESHOLD: by_itself})
+
+
+def _set(options: dict[int, int]) -> None:
     if not sys.platform.startswith("linux"):
         return
     try:
         mallopt = ctypes.CDLL(None).mallopt
     except (OSError, AttributeError):
         return
-    trim_threshold, top_pad, mmap_threshold, arena_max = -1, -2, -3, -8
-    mallopt(arena_max, _HEAPS)
-    mallopt(trim_threshold, _KEPT)
-    mallopt(top_pad, _KEPT // 8)
-    mallopt(mmap_threshold, _BY_ITSELF)
+    for option, value in options.items():
+        mallopt(option, value)
 
 
 def _kernels_folder() -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 
+from engine import spare_memory
 from engine.archive.shelf import DECODED
 from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
@@ -19,6 +20,7 @@ _PASSING = 256 << 20  # bytes that come and go at once, as a save takes them, fo
 _PASSING_PART = 4  # and of the budget such a part
 _GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
+_SPARED_PARTS = 4  # of what it may take: where but one of them is left, pages are spared until two are
 _AGAIN = 2.0  # seconds after which it is, at the latest
 _REST = 50  # of the time that a look took, such a multiple of it
 _SOONER = 15  # where the process has grown meanwhile; as all strokes come and go by more
@@ -48,6 +50,7 @@ class Room(Owned):
         self._took = 0.0  # seconds, then
         self._evicted = 0  # bytes that the cache had evicted when pages were given back at rest
         self._settled = 0  # bytes resident then, or fewer since
+        self._sparing = False  # whether pages of large arrays go back as soon as they are freed
         self._grown = False  # whether it is time for that again
 
     def keep_within(self, root: Group) -> None:
@@ -56,6 +59,7 @@ class Room(Owned):
         most, held = _most(), memory.resident()
         self._settled = min(self._settled, held)
         self._grown = held - self._settled > _GROWN
+        self._spare(held, most)
         if held <= most:
             self.history.tight = False
         if not self._due(held, most):
@@ -78,6 +82,16 @@ class Room(Owned):
         self._paging.step(_PAGED_AT_ONCE)
         self._left = memory.resident()
         self._took = time.monotonic() - self._looked
+
+    def _spare(self, held: int, most: int) -> None:
+        """Has pages of large arrays go back as soon as they are freed where little room is left, which is slower."""
+        part = held * _SPARED_PARTS
+        if part > most * (_SPARED_PARTS - 1) and not self._sparing:
+            self._sparing = True
+            spare_memory(True)
+        elif part < most * (_SPARED_PARTS - 2) and self._sparing:
+            self._sparing = False
+            spare_memory(False)
 
     def _due(self, held: int, most: int) -> bool:
         """Tells whether it is time to look after the memory of a process that holds so many bytes: it holds too much,

@@ -1,0 +1,59 @@
+"""Freed pages: kept for the next array while there is room, given back with each large one where there is little."""
+
+import ctypes
+import sys
+
+import numpy as np
+import pytest
+
+from engine import spare_memory
+from engine.canvas.tile_cache import TileCache
+from engine.keeping import memory
+from engine.painting.value import Painting
+from engine.session.history import History
+from engine.session.room import Room
+
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="of glibc")
+SIZE, COUNT = 20 << 20, 40  # bytes that are never written to: more than may be free already
+
+
+class Blocks(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_size_t) for name in "heaps free small maps mapped a b used left top".split()]  # noqa: RUF012
+
+
+def mapped():
+    """Bytes of what is mapped by itself, which goes back when it is freed."""
+    told = ctypes.CDLL(None).mallinfo2
+    told.restype = Blocks
+    return told().mapped
+
+
+@pytest.fixture(autouse=True)
+def as_before():
+    yield
+    spare_memory(False)
+
+
+def goes_back():
+    """Whether large arrays are mapped by themselves."""
+    before = mapped()
+    arrays = [np.empty(SIZE, np.uint8) for _ in range(COUNT)]
+    grown = mapped() - before
+    del arrays
+    assert mapped() == before
+    return grown >= SIZE
+
+
+def test_large_arrays_are_mapped_by_themselves_where_memory_is_spared():
+    for sparing in (False, True, True, False):
+        spare_memory(sparing)
+        assert goes_back() == sparing
+
+
+def test_it_is_spared_from_three_quarters_of_what_the_process_may_take_until_half(monkeypatch):
+    room, root = Room(TileCache(1 << 20), History()), Painting().root
+    monkeypatch.setattr("engine.session.room._most", lambda: 100 << 20)
+    for held, sparing in ((70, False), (80, True), (60, True), (40, False), (60, False), (120, True)):
+        monkeypatch.setattr(memory, "resident", lambda held=held: held << 20)
+        room.keep_within(root)
+        assert goes_back() == sparing, held
