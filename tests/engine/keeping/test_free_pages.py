@@ -14,11 +14,12 @@ from engine.session.history import History
 from engine.session.room import Room
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="of glibc")
+NAMES = "heaps", "free", "small", "maps", "mapped", "most", "fast", "used", "left", "top"
 SIZE, COUNT = 20 << 20, 40  # bytes that are never written to: more than may be free already
 
 
 class Blocks(ctypes.Structure):
-    _fields_ = [(name, ctypes.c_size_t) for name in "heaps free small maps mapped a b used left top".split()]  # noqa: RUF012
+    _fields_ = tuple((name, ctypes.c_size_t) for name in NAMES)
 
 
 def mapped():
