@@ -120,7 +120,7 @@ class Spill:
 def _rounded(size: int) -> int:
     """Returns a size a little larger, such that many pieces have the same."""
     step = max(_LEAST, 1 << max(size.bit_length() - 3, 0))
-    return -(-size // step) * step
+    return -(-max(size, 1) // step) * step
 
 
 def spill_folder() -> Path:

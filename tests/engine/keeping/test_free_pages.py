@@ -23,8 +23,8 @@ class Blocks(ctypes.Structure):
 
 
 def told():
-    """What the C library tells: of its blocks, `mapped` are bytes of those mapped by themselves, which go back when they
-    are freed, `left` those that are free."""
+    """What the C library tells: of its blocks, `mapped` are bytes of those mapped by themselves, which go back when
+    they are freed, `left` those that are free."""
     asked = ctypes.CDLL(None).mallinfo2
     asked.restype = Blocks
     return asked()

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from engine.keeping.spill import Spill
@@ -21,6 +21,7 @@ def spill(tmp_path):
 
 @settings(deadline=None, max_examples=30)
 @given(st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 4)), max_size=40))
+@example([(0, 3), (1, 0), (0, 0), (0, 3)])
 def test_every_piece_is_what_it_was_whatever_became_of_others(tmp_path_factory, acts):
     spill, held = Spill(tmp_path_factory.mktemp("spill")), []
     for n, (size, dropped) in enumerate(acts):
