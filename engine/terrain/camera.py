@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 
+from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
 from engine.terrain.caster import maxima, mipmap_of
 from engine.terrain.drape import Cover
@@ -17,9 +19,10 @@ from engine.terrain.plane import DEEP, Land
 from engine.terrain.seen.eye import axes_of
 
 CELLS = 1024  # of a window's side
-_APART = 2  # levels between windows
+APART = 2  # levels from one window to the next
 _AHEAD = 0.3  # of a window's side: how far before the eye its middle lies at most
-_RIM = 0.14  # of its side, in which a window becomes the next coarser one
+RIM = 0.14  # of its side, in which a window becomes the next coarser one
+_ROWS = 128  # of heights that are worked out at a time
 _ROOM = 4  # times the frame that the coarsest window shows
 
 
@@ -76,20 +79,30 @@ class Windows:
     sea: float
 
 
-def windows_of(land: Land, camera: Camera, cover: Cover, finest: int, wet: bool = False, cells: int = CELLS) -> Windows:
-    """Returns the windows that a camera sees whose finest is of a level; `wet`: all below height 0 is water."""
+def windows_of(
+    land: Land,
+    camera: Camera,
+    cover: Cover,
+    finest: int,
+    wet: bool = False,
+    cells: int = CELLS,
+    apart: int = APART,
+    cancelled: Callable[[], bool] | None = None,
+) -> Windows:
+    """Returns the windows that a camera sees whose finest is of a level, so many levels `apart`; `wet`: all below
+    height 0 is water.  `cancelled` is asked every some milliseconds: Cancelled if it says so."""
     foot = _pixel_of(camera, finest)
     about = foot.above(finest - DEEP) if finest > DEEP else None
     ground = float(land.height(finest, foot.rect, about)[0, 0])
     wet = wet and about is None
     base = max(ground, 0.0) if wet else ground
-    levels = _levels(land, camera, finest, cells)
+    levels = _levels(land, camera, finest, cells, apart)
     heights: list[np.ndarray] = []
     colours: list[np.ndarray] = []
     places: list[tuple[float, float, float]] = []
     for level in levels:
         rect = _rect_of(camera, level, cells)
-        told = land.height(level, rect, about)
+        told = _told(land, level, rect, about, cancelled)
         if wet:
             told = np.maximum(told, 0.0)
         h = in_pixels(told - base, level).astype(np.float32)
@@ -114,7 +127,19 @@ def _pixel_of(camera: Camera, level: int) -> Pixel:
     return Pixel(level, math.floor(camera.x * by), math.floor(camera.y * by))
 
 
-def _levels(land: Land, camera: Camera, finest: int, cells: int) -> tuple[int, ...]:
+def _told(land: Land, level: int, rect: Rect, about: Pixel | None, cancelled: Callable[[], bool] | None) -> np.ndarray:
+    """Returns the heights of a window, worked out piece by piece where that may be cancelled."""
+    if cancelled is None:
+        return land.height(level, rect, about)
+    parts = []
+    for y in range(rect.y0, rect.y1, _ROWS):
+        if cancelled():
+            raise Cancelled
+        parts.append(land.height(level, Rect(rect.x0, y, rect.x1, min(y + _ROWS, rect.y1)), about))
+    return np.concatenate(parts)
+
+
+def _levels(land: Land, camera: Camera, finest: int, cells: int, apart: int) -> tuple[int, ...]:
     """Returns the levels of the windows, coarsest first."""
     frame = land.painting.frame
     levels = [finest]
@@ -123,7 +148,7 @@ def _levels(land: Land, camera: Camera, finest: int, cells: int) -> tuple[int, .
         side = Fraction(2) ** levels[-1] * max(frame.width, frame.height) * _ROOM
         if side + 8 * Fraction(camera.height) * by <= cells:
             break
-        levels.append(levels[-1] - _APART)
+        levels.append(levels[-1] - apart)
     return tuple(reversed(levels))
 
 
@@ -154,7 +179,7 @@ def _nested(fine: Sheet, coarse: Sheet, natural: bool) -> tuple[np.ndarray, np.n
     grows there by the coarser one, more than half: the same slope is steeper the nearer one looks."""
     n = len(fine[0]) - 1
     here = np.arange(n + 1)
-    off = np.minimum(here, n - here) / (_RIM * n)
+    off = np.minimum(here, n - here) / (RIM * n)
     off = np.clip(np.minimum(off[:, None], off[None]), 0.0, 1.0)
     part = (off * off * (3.0 - 2.0 * off)).astype(np.float32)
     ratio = fine[2][2] / coarse[2][2]

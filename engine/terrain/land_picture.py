@@ -60,17 +60,22 @@ def picture_of_land(
 
 
 def refinement(
-    windows: Windows, shot: Shot, wide: float, cancelled: Callable[[], bool] | None = None
+    windows: Windows,
+    shot: Shot,
+    wide: float,
+    cancelled: Callable[[], bool] | None = None,
+    quarter: bool = True,
 ) -> Iterator[Stage]:
-    """Yields a picture of land that becomes sharper: a quarter of the shot's size each way, its size with one sample of
-    a pixel, with four, with all of them.  Each stage is a function of what was asked for alone, and the last one that
-    of `picture_of_land`, bit for bit.
+    """Yields a picture of land that becomes sharper: a `quarter` of the shot's size each way, its size with one sample
+    of a pixel, with four, with all of them.  Each stage is a function of what was asked for alone, and the last one
+    that of `picture_of_land`, bit for bit.
 
     `windows`: by `windows_of(land, shot.camera, cover, shot.camera.finest(shot.size), shot.wet)`.  `wide`: the width of
     the painting's frame.  A stage is worked out, on all cores, when it is asked for; meanwhile `cancelled` is asked
     every some milliseconds, by several threads: Cancelled if it says so."""
-    small = _exposed(windows, shot, wide, (0, 1), None, None, cancelled, _QUARTER)
-    yield Stage(developed(small, 1), _QUARTER, 1)
+    if quarter:
+        small = _exposed(windows, shot, wide, (0, 1), None, None, cancelled, _QUARTER)
+        yield Stage(developed(small, 1), _QUARTER, 1)
     light, done = None, 0
     for samples in (1, 4, shot.samples):
         if done < samples <= shot.samples:
