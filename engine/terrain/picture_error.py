@@ -50,7 +50,7 @@ def _parts(windows: Windows, w: int, camera: Camera, size: tuple[int, int]) -> I
 
 def _every(windows: Windows) -> int:
     """Returns how far samples that are looked at are apart."""
-    return max(1, (windows.heights.shape[1] - 1) // _SAMPLES)
+    return max(1, (len(windows.heights[0]) - 1) // _SAMPLES)
 
 
 def _first_of(windows: Windows, w: int, camera: Camera) -> tuple[int, int]:
