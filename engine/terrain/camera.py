@@ -21,8 +21,8 @@ from engine.terrain.seen.eye import axes_of
 CELLS = 1024  # of a window's side
 APART = 2  # levels from one window to the next
 _AHEAD = 0.3  # of a window's side: how far before the eye its middle lies at most
-RIM = 0.14  # of its side, in which a window becomes the next coarser one
-_ROWS = 128  # of heights that are worked out at a time
+WINDOW_RIM = 0.14  # of its side, in which a window becomes the next coarser one
+_ROWS_AT_ONCE = 128  # of heights that are worked out at a time
 _ROOM = 4  # times the frame that the coarsest window shows
 
 
@@ -132,10 +132,10 @@ def _told(land: Land, level: int, rect: Rect, about: Pixel | None, cancelled: Ca
     if cancelled is None:
         return land.height(level, rect, about)
     parts = []
-    for y in range(rect.y0, rect.y1, _ROWS):
+    for y in range(rect.y0, rect.y1, _ROWS_AT_ONCE):
         if cancelled():
             raise Cancelled
-        parts.append(land.height(level, Rect(rect.x0, y, rect.x1, min(y + _ROWS, rect.y1)), about))
+        parts.append(land.height(level, Rect(rect.x0, y, rect.x1, min(y + _ROWS_AT_ONCE, rect.y1)), about))
     return np.concatenate(parts)
 
 
@@ -179,7 +179,7 @@ def _nested(fine: Sheet, coarse: Sheet, natural: bool) -> tuple[np.ndarray, np.n
     grows there by the coarser one, more than half: the same slope is steeper the nearer one looks."""
     n = len(fine[0]) - 1
     here = np.arange(n + 1)
-    off = np.minimum(here, n - here) / (RIM * n)
+    off = np.minimum(here, n - here) / (WINDOW_RIM * n)
     off = np.clip(np.minimum(off[:, None], off[None]), 0.0, 1.0)
     part = (off * off * (3.0 - 2.0 * off)).astype(np.float32)
     ratio = fine[2][2] / coarse[2][2]

@@ -9,12 +9,12 @@ from fractions import Fraction
 import numpy as np
 
 from engine.numeric.address import Rect
-from engine.terrain.camera import RIM, Camera, Windows
+from engine.terrain.camera import WINDOW_RIM, Camera, Windows
 from engine.terrain.caster import CELLS_PER_PIXEL
 from engine.terrain.plane import Land
 
-_SAMPLES = 256  # of a window's side that are looked at
-_PARTS = 4  # of a window's side, each with a bound of its own
+_LOOKED_AT = 256  # of a window's side that are looked at
+_BLOCKS_ACROSS = 4  # of a window's side, each with a bound of its own
 _WIDER = 1.2  # than a pixel, that rays may be (as `daylight` has them)
 _BEYOND = 1.05  # times what the picture shows, that is looked at
 
@@ -39,7 +39,7 @@ def _parts(windows: Windows, w: int, camera: Camera, size: tuple[int, int]) -> I
     cells = windows.heights.shape[1] - 1
     away = _away(windows, w, camera, size)
     x, y = _first_of(windows, w, camera)
-    part, every = -(-cells // _PARTS), _every(windows)
+    part, every = -(-cells // _BLOCKS_ACROSS), _every(windows)
     for top in range(0, cells, part):
         for left in range(0, cells, part):
             rows, columns = (slice(a // every, (a + part) // every + 1) for a in (top, left))
@@ -50,7 +50,7 @@ def _parts(windows: Windows, w: int, camera: Camera, size: tuple[int, int]) -> I
 
 def _every(windows: Windows) -> int:
     """Returns how far samples that are looked at are apart."""
-    return max(1, (len(windows.heights[0]) - 1) // _SAMPLES)
+    return max(1, (len(windows.heights[0]) - 1) // _LOOKED_AT)
 
 
 def _first_of(windows: Windows, w: int, camera: Camera) -> tuple[int, int]:
@@ -82,7 +82,10 @@ def _away(windows: Windows, w: int, camera: Camera, size: tuple[int, int]) -> np
     away: np.ndarray = np.sqrt(x * x + y * y + z * z)
     if w + 1 < len(windows.levels):
         finer, cone = windows.places[w + 1], wide / _BEYOND * 2.0 / size[0]
-        within = (1.0 - RIM) * (n - 1) * finer[2] - 0.5 * spacing, RIM * (n - 1) * finer[2] + 0.5 * spacing
+        within = (
+            (1.0 - WINDOW_RIM) * (n - 1) * finer[2] - 0.5 * spacing,
+            WINDOW_RIM * (n - 1) * finer[2] + 0.5 * spacing,
+        )
         inner = [(a >= at0 + within[1]) & (a <= at0 + within[0]) for a, at0 in ((x, finer[0]), (y, finer[1]))]
         until = CELLS_PER_PIXEL / (_WIDER * cone) * finer[2]
         shown &= ~(inner[0] & inner[1] & (away < until))

@@ -26,7 +26,7 @@ from engine.terrain.plane import land
 
 _SAMPLES = 16
 _CACHE = 32 << 20  # bytes
-_QUARTER = 4  # pixels to one of the picture that comes first
+_COARSER_FIRST = 4  # pixels to one of the picture that comes first
 
 
 class StillPictures(Owned):
@@ -74,9 +74,9 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
         shot = Shot(camera, size, _SAMPLES, wet=wet)
         return shot, windows_of(seen, camera, cover, camera.finest(size), wet, cells, apart, gone)
 
-    shot, windows = shown(_QUARTER, CELLS // _QUARTER, APART)
+    shot, windows = shown(_COARSER_FIRST, CELLS // _COARSER_FIRST, APART)
     first = next(iter(refinement(windows, replace(shot, samples=1), wide, gone, quarter=False)))
-    send(StillCome(request.number, frozen(first.picture), _QUARTER, last=False))
+    send(StillCome(request.number, frozen(first.picture), _COARSER_FIRST, last=False))
     shot, windows = shown(1, CELLS, 1)
     error = picture_error(seen, windows, camera, request.size)
     for stage in refinement(windows, shot, wide, gone, quarter=False):
