@@ -80,18 +80,23 @@ def _left(desk: Desk, right: float) -> None:
         _offer(desk, "No paint in sight", "nearest")
     elif not desk.known.ready:
         imgui.text_disabled("Loading the paint engine…")
-    elif desk.selecting.masking and TOOLS[desk.hand.tool].outline:
-        imgui.text_disabled(
-            "Take from what is selected"
-            if desk.hand.erasing
-            else "Paint what is selected, erase what is not; colours do not count"
-        )
-    elif desk.land.on:
-        imgui.text_disabled(_LAND)
     else:
-        tool = TOOLS[desk.hand.tool]
-        hint = tool.hint if tool.told is None else tool.told(desk)
-        imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else hint)
+        imgui.text_disabled(now_possible(desk))
+
+
+def now_possible(desk: Desk) -> str:
+    """Returns what the tool in hand does now, in a line: on masks the brush does something else than on paint."""
+    tool = TOOLS[desk.hand.tool]
+    if desk.selecting.masking and tool.outline:
+        taken, added = "Take from what is selected", "Paint what is selected, erase what is not; colours do not count"
+        return taken if desk.hand.erasing else added
+    if desk.land.on:
+        return _LAND
+    if desk.masks.on(desk.known.active) and tool.outline:
+        return "Hide with the eraser" if desk.hand.erasing else "Paint on the mask: black hides, white shows again"
+    if desk.hand.erasing:
+        return "Erase with the chosen brush"
+    return tool.hint if tool.told is None else tool.told(desk)
 
 
 def _opening(desk: Desk, opening: Opening) -> None:

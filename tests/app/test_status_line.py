@@ -1,8 +1,15 @@
-"""What the status line tells of memory."""
+"""What the status line tells of memory, and of what the tool in hand does."""
 
+from dataclasses import replace
+
+from app.canvas.view import Place, View
+from app.desk.desk import Desk
 from app.desk.known import Known, known_after
-from app.panels.status import _memory
+from app.panels.status import _memory, now_possible
+from engine.numeric.address import Rect
 from engine.studio.held.held_records import Held
+from engine.studio.layer_rows import LayerRow
+from engine.studio.results import Scene
 
 MB = 1 << 20
 
@@ -26,3 +33,25 @@ def test_who_holds_memory_is_told_in_megabytes_and_what_is_left_is_the_program()
 
 def test_what_lies_on_disk_is_told_where_there_is_any():
     assert "Put away on disk: 70 MB" in _memory(Held((), 300 * MB, 512 * MB, 70 * MB))[1]
+
+
+ROW = LayerRow("Sky", False, 0, None, 0, 1.0, True, "src-over", False, False, masked=True)
+
+
+def desk_on(row):
+    desk = Desk(View(Place(0, 0, 0), 0, 0.0, 1280, 800), [].append)
+    desk.known = replace(
+        desk.known, ready=True, scene=Scene(Rect(0, 0, 9, 9), (row,), row.name, True, False, True, None)
+    )
+    return desk
+
+
+def test_one_is_told_that_the_brush_hides_and_shows_while_a_mask_is_painted_on():
+    desk = desk_on(ROW)
+    assert now_possible(desk) == "Paint with the chosen brush"
+    desk.masks.layer = "Sky"
+    assert now_possible(desk) == "Paint on the mask: black hides, white shows again"
+    desk.hand.erase()
+    assert now_possible(desk) == "Hide with the eraser"
+    desk.hand.use("pan")
+    assert now_possible(desk).startswith("Drag the picture")
