@@ -19,7 +19,9 @@ from engine.terrain.plane import DEEP, Land
 from engine.terrain.seen.eye import axes_of
 
 CELLS = 1024  # of a window's side
-APART = 2  # levels from one window to the next
+_APART = 2  # levels from one window to the next
+_GAPS = ((8, 1), (10, 2))  # of a picture that is to be sharp: up to so many windows, so many levels; then
+_LAST_GAP = 4
 _AHEAD = 0.3  # of a window's side: how far before the eye its middle lies at most
 WINDOW_RIM = 0.14  # of its side, in which a window becomes the next coarser one
 _ROWS_AT_ONCE = 128  # of heights that are worked out at a time
@@ -86,17 +88,18 @@ def windows_of(
     finest: int,
     wet: bool = False,
     cells: int = CELLS,
-    apart: int = APART,
+    sharp: bool = False,
     cancelled: Callable[[], bool] | None = None,
 ) -> Windows:
-    """Returns the windows that a camera sees whose finest is of a level, so many levels `apart`; `wet`: all below
-    height 0 is water.  `cancelled` is asked every some milliseconds: Cancelled if it says so."""
+    """Returns the windows that a camera sees whose finest is of a level; `wet`: all below height 0 is water;
+    `sharp`: with more of them near the eye, and no more than seventeen in all down to level 32.  `cancelled` is asked
+    every some milliseconds: Cancelled if it says so."""
     foot = _pixel_of(camera, finest)
     about = foot.above(finest - DEEP) if finest > DEEP else None
     ground = float(land.height(finest, foot.rect, about)[0, 0])
     wet = wet and about is None
     base = max(ground, 0.0) if wet else ground
-    levels = _levels(land, camera, finest, cells, apart)
+    levels = _levels(land, camera, finest, cells, sharp)
     heights: list[np.ndarray] = []
     colours: list[np.ndarray] = []
     places: list[tuple[float, float, float]] = []
@@ -139,7 +142,7 @@ def _told(land: Land, level: int, rect: Rect, about: Pixel | None, cancelled: Ca
     return np.concatenate(parts)
 
 
-def _levels(land: Land, camera: Camera, finest: int, cells: int, apart: int) -> tuple[int, ...]:
+def _levels(land: Land, camera: Camera, finest: int, cells: int, sharp: bool) -> tuple[int, ...]:
     """Returns the levels of the windows, coarsest first."""
     frame = land.painting.frame
     levels = [finest]
@@ -148,7 +151,8 @@ def _levels(land: Land, camera: Camera, finest: int, cells: int, apart: int) -> 
         side = Fraction(2) ** levels[-1] * max(frame.width, frame.height) * _ROOM
         if side + 8 * Fraction(camera.height) * by <= cells:
             break
-        levels.append(levels[-1] - apart)
+        gap = next((gap for most, gap in _GAPS if len(levels) < most), _LAST_GAP) if sharp else _APART
+        levels.append(levels[-1] - gap)
     return tuple(reversed(levels))
 
 

@@ -18,7 +18,7 @@ from engine.studio.easel import Easel
 from engine.studio.land.land_records import AskStill, StillCome
 from engine.studio.requests import Handlers
 from engine.studio.results import frozen
-from engine.terrain.camera import APART, CELLS, Camera, Windows, windows_of
+from engine.terrain.camera import CELLS, Camera, Windows, windows_of
 from engine.terrain.drape import cover_of
 from engine.terrain.land_picture import Shot, refinement
 from engine.terrain.picture_error import picture_error
@@ -69,15 +69,15 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
     camera = replace(camera, height=max(eye.z - (max(ground, 0.0) if wet else ground), 2.0**-finest))
     wide = painting.frame.width
 
-    def shown(by: int, cells: int, apart: int) -> tuple[Shot, Windows]:
+    def shown(by: int, cells: int) -> tuple[Shot, Windows]:
         size = -(-request.size[0] // by), -(-request.size[1] // by)
         shot = Shot(camera, size, _SAMPLES, wet=wet)
-        return shot, windows_of(seen, camera, cover, camera.finest(size), wet, cells, apart, gone)
+        return shot, windows_of(seen, camera, cover, camera.finest(size), wet, cells, by == 1, gone)
 
-    shot, windows = shown(_COARSER_FIRST, CELLS // _COARSER_FIRST, APART)
+    shot, windows = shown(_COARSER_FIRST, CELLS // _COARSER_FIRST)
     first = next(iter(refinement(windows, replace(shot, samples=1), wide, gone, quarter=False)))
     send(StillCome(request.number, frozen(first.picture), _COARSER_FIRST, last=False))
-    shot, windows = shown(1, CELLS, 1)
+    shot, windows = shown(1, CELLS)
     error = picture_error(seen, windows, camera, request.size)
     for stage in refinement(windows, shot, wide, gone, quarter=False):
         last = stage.samples == _SAMPLES

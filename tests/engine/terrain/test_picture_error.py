@@ -44,7 +44,7 @@ def windows(seen, azimuth, **more):
 
 @pytest.mark.parametrize("azimuth", [0.0, 90.0, 180.0, 270.0])
 def test_what_a_picture_shows_lies_no_farther_off_than_it_tells(seen, azimuth):
-    camera, made = windows(seen, azimuth, apart=1)
+    camera, made = windows(seen, azimuth, sharp=True)
     told = picture_error(seen, made, camera, SIZE)
     right, up, forward = camera.axes()
     pixel = 2 * math.tan(math.radians(camera.fov) / 2) / SIZE[0]
@@ -84,3 +84,15 @@ def test_windows_can_be_given_up_and_come_to_the_same_piece_by_piece(seen):
     left = iter([False, False])
     with pytest.raises(Cancelled):
         windows(seen, 30.0, cancelled=lambda: next(left, True))
+
+
+def test_a_sharp_picture_has_more_land_near_the_eye_and_not_too_much_in_all(seen):
+    deep = Camera(26, Fraction(128 << 26), Fraction(128 << 26), 20.0, 0.0, -24.0, 55.0)
+    sides = []
+    for sharp in (False, True):
+        made = windows_of(seen, deep, cover_of(seen, False), deep.finest(SIZE), cells=16, sharp=sharp)
+        sides.append(made.places[::-1, 2])
+        assert 10 < len(made.levels) <= 17
+    assert (sides[0][:8] == 4.0 ** np.arange(8)).all()
+    assert (sides[1][:8] == 2.0 ** np.arange(8)).all()
+    assert sides[1][-1] > 2.0**24  # as far as without
