@@ -1,10 +1,14 @@
 """What the status line tells of memory, and of what the tool in hand does."""
 
 from dataclasses import replace
+from pathlib import Path
+
+import pytest
 
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
 from app.desk.known import Known, known_after
+from app.desk.outside import bringing
 from app.panels.status import _memory, now_possible
 from engine.numeric.address import Rect
 from engine.studio.held.held_records import Held
@@ -55,3 +59,11 @@ def test_one_is_told_that_the_brush_hides_and_shows_while_a_mask_is_painted_on()
     assert now_possible(desk) == "Hide with the eraser"
     desk.hand.use("pan")
     assert now_possible(desk).startswith("Drag the picture")
+
+
+@pytest.mark.parametrize(("side", "told"), [(300, "Drag “sky 2”"), (8000, "Laying “sky 2”.  Drag")])
+def test_of_a_large_picture_one_is_told_that_it_is_on_its_way(side, told):
+    desk = desk_on(replace(ROW, name="sky"))
+    bringing.lay(desk, Path("sky.png"), "sky", (side, side), Place(0, 0, 0))
+    assert desk.message.text.startswith(told)
+    assert desk.hand.tool == "move"

@@ -16,6 +16,7 @@ from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do
 
 _FAR = -4  # a level at which little is left of a picture that lies on level 0
+_SLOW = 1 << 24  # pixels of a picture that is seconds on its way to its layer
 
 
 def is_picture(path: Path) -> bool:
@@ -62,7 +63,8 @@ def lay(desk: Desk, path: Path, stem: str, size: tuple[int, int], place: Place, 
     desk.post(Do(DefineTexture(texture, "image", Map({"path": str(path.absolute())}))))
     name = free_layer_name(desk, stem)
     desk.post(Do(AddPicture(name, texture, level, at, role)))
-    desk.say(f"Drag “{name}” where it belongs")
+    told = f"Drag “{name}” where it belongs"
+    desk.say(f"Laying “{name}”.  {told}" if size[0] * size[1] >= _SLOW else told)
     desk.hand.use("move")
 
 
