@@ -20,8 +20,8 @@ from engine.terrain.seen.eye import axes_of
 
 CELLS = 1024  # of a window's side
 _APART = 2  # levels from one window to the next
-_GAPS = ((8, 1), (10, 2))  # of a picture that is to be sharp: up to so many windows, so many levels; then
-_LAST_GAP = 4
+_GAPS = ((8, 1), (12, 2))  # of a picture that is to be sharp: up to so many windows, so many levels; then
+_LAST_GAP = 3
 _AHEAD = 0.3  # of a window's side: how far before the eye its middle lies at most
 WINDOW_RIM = 0.14  # of its side, in which a window becomes the next coarser one
 _ROWS_AT_ONCE = 128  # of heights that are worked out at a time
@@ -92,7 +92,7 @@ def windows_of(
     cancelled: Callable[[], bool] | None = None,
 ) -> Windows:
     """Returns the windows that a camera sees whose finest is of a level; `wet`: all below height 0 is water;
-    `sharp`: with more of them near the eye, and no more than seventeen in all down to level 32.  `cancelled` is asked
+    `sharp`: with more of them near the eye, and no more than nineteen in all down to level 32.  `cancelled` is asked
     every some milliseconds: Cancelled if it says so."""
     foot = _pixel_of(camera, finest)
     about = foot.above(finest - DEEP) if finest > DEEP else None
@@ -100,10 +100,13 @@ def windows_of(
     wet = wet and about is None
     base = max(ground, 0.0) if wet else ground
     levels = _levels(land, camera, finest, cells, sharp)
-    heights: list[np.ndarray] = []
-    colours: list[np.ndarray] = []
+    side = cells + 1
+    heights = np.empty((len(levels), side, side), np.float32)
+    colours = np.empty((len(levels), side, side, 3), np.uint8)
+    tops: list[np.ndarray] = []
+    before = np.empty(0, np.float32)  # the colours of the window before, linear
     places: list[tuple[float, float, float]] = []
-    for level in levels:
+    for w, level in enumerate(levels):
         rect = _rect_of(camera, level, cells)
         told = _told(land, level, rect, about, cancelled)
         if wet:
@@ -111,18 +114,16 @@ def windows_of(
         h = in_pixels(told - base, level).astype(np.float32)
         paint = cover.colours(level, rect, h, base).astype(np.float32)
         place = _place_of(camera, rect, level, finest)
-        if heights:
-            h, paint = _nested((h, paint, place), (heights[-1], colours[-1], places[-1]), cover.root is None)
-        heights.append(h)
-        colours.append(paint)
+        if w:
+            h, paint = _nested((h, paint, place), (heights[w - 1], before, places[-1]), cover.root is None)
+        heights[w] = h
+        before = paint
+        colours[w] = np.rint(np.sqrt(np.clip(paint, 0.0, 1.0)) * 255.0)
+        tops.append(maxima(h))
         places.append(place)
-    coded = [np.rint(np.sqrt(np.clip(paint, 0.0, 1.0)) * 255.0).astype(np.uint8) for paint in colours]
     eye = math.ldexp(camera.height, finest - camera.level)
     sea = math.ldexp(-base, finest) if wet else -math.inf
-    tops = np.stack([maxima(h) for h in heights])
-    return Windows(
-        np.stack(heights), tops, np.stack(mipmap_of(cells)), np.array(places), np.stack(coded), levels, eye, sea
-    )
+    return Windows(heights, np.stack(tops), np.stack(mipmap_of(cells)), np.array(places), colours, levels, eye, sea)
 
 
 def _pixel_of(camera: Camera, level: int) -> Pixel:
