@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from app.desk import flight
-from app.desk.desk import Desk, Hear
+from app.desk.desk import Desk, Hear, Message
 from app.desk.files import Done
 from app.desk.known import Known, known_after
 from app.desk.moving import independence
@@ -49,6 +49,8 @@ def _filmed(desk: Desk, told: results.Filming, _now: float) -> None:
 
 def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
     desk.notices.shown(scene.serial)
+    if desk.message.of not in (None, desk.known.active):
+        desk.message = Message()
     desk.masks.follow(desk.post, desk.known.active)
     recovery_work.offer(desk, scene)
     follow_opened(desk)

@@ -38,6 +38,7 @@ from app.desk.solids.solid_state import SolidState
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
 from engine.studio.filing.opening_requests import CancelOpening, Show
+from engine.studio.layer_rows import LayerRow
 from engine.studio.requests import Open, Request, Save
 from engine.studio.results import Note, Opening, Whole
 
@@ -71,12 +72,14 @@ def _no_thumbnails(_entries: tuple[Entry, ...], _side: int) -> None:
 
 class Message(NamedTuple):
     """A line in the status line, until a time by the monotonic clock.  `offers`: the actions, rows of
-    ACTIONS in app.actions, that do something about it; the line is void when none is to be done any more."""
+    ACTIONS in app.actions, that do something about it; the line is void when none is to be done any more; `of`: the
+    layer of which it tells, as it was then: the line goes once that is another."""
 
     text: str = ""
     bad: bool = False
     until: float = 0.0
     offers: tuple[str, ...] = ()
+    of: LayerRow | None = None
 
 
 def _no_previews(_folder: Path, _rows: Iterable[FileRow], _side: int) -> None:
@@ -145,10 +148,13 @@ class Desk:
         """Takes over what has become known: other values for members of `known`."""
         self.known = replace(self.known, **known)
 
-    def say(self, text: str, bad: bool = False, offer: str = "", offers: tuple[str, ...] = ()) -> None:
-        """Shows a line in the status line for some seconds; with buttons for an action that it may `offer`, or more."""
+    def say(
+        self, text: str, bad: bool = False, offer: str = "", offers: tuple[str, ...] = (), of: LayerRow | None = None
+    ) -> None:
+        """Shows a line in the status line for some seconds; with buttons for an action that it may `offer`, or more;
+        while the layer that it tells `of` is as it is."""
         until = time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1)
-        self.message = Message(text, bad, until, (offer,) if offer else offers)
+        self.message = Message(text, bad, until, (offer,) if offer else offers, of)
 
     def told(self, note: Note) -> None:
         """Shows what the engine tells: for some seconds, or until it is dealt with."""

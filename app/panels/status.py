@@ -125,7 +125,7 @@ def _says(desk: Desk) -> bool:
 
 def _message(desk: Desk, right: float) -> None:
     """Draws it up to `right`, with a button for what it offers; where it is too long, the text ends earlier."""
-    text, bad, _, offered = desk.message
+    text, bad, offered = desk.message.text, desk.message.bad, desk.message.offers
     sign = f"{icons.WARNING}  " if bad else ""
     offers = [offer for offer in offered if ACTIONS[offer].when(desk)]
     pad = imgui.get_font_size() + 2 * imgui.get_style().frame_padding.x

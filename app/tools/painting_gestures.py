@@ -44,10 +44,10 @@ def refused(desk: Desk) -> bool:
         return True
     layer = desk.known.active
     if layer is not None and layer.locked and not desk.selecting.masking:
-        desk.say(f"Layer “{layer.name}” is locked", bad=True)
+        desk.say(f"Layer “{layer.name}” is locked", bad=True, of=layer)
         return True
     if layer is not None and layer.mask_turned and desk.masks.on(layer) and not desk.selecting.masking:
-        desk.say(f"The mask of “{layer.name}” was turned or scaled with it", bad=True, offer="mask_lay")
+        desk.say(f"The mask of “{layer.name}” was turned or scaled with it", bad=True, offer="mask_lay", of=layer)
         return True
     return False
 
@@ -80,7 +80,7 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
     placed = layer is not None and layer.shows is not None and not desk.masks.on(layer)
     aim = through(desk.known, layer, desk.view.shown_level) if layer is not None and placed else None
     if isinstance(aim, str):
-        desk.say(aim, bad=True, offers=("source", "independent"))
+        desk.say(aim, bad=True, offers=("source", "independent"), of=layer)
         return None
     if desk.known.hiding:
         desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")

@@ -74,7 +74,7 @@ def selected_paint(painting: Painting, node: Layer) -> Pyramid:
 def pasted(painting: Painting, node: Layer | None, to: str) -> Painting:
     """Returns the painting with what was copied or set aside seen on a layer above the active one."""
     if node is None:
-        raise Refusal(f"layer {to!r}: found nothing that was copied, expected something to paste")
+        raise Refusal(f"layer {to!r}: nothing was copied or cut in this painting, expected something to paste")
     number = layers.next_id(painting.root)
     made = replace(node, id=number, name=to, visible=True, role="", pyramid=node.pyramid.branched())
     made = replace(made, heaps=own_lines(node.heaps))

@@ -1,6 +1,7 @@
 """What went wrong stays: until it is dealt with, until the painting is another one, or until it is closed by hand."""
 
 import errno
+from dataclasses import replace
 
 import pytest
 
@@ -10,12 +11,17 @@ from app.desk.desk import Desk
 from app.desk.notices import Notice, Notices
 from app.desk.offers import CopyDetails, ShowRoom
 from app.faults.fault_guard import FaultGuard
+from app.input.events import PenEvent
 from app.news import News
+from app.tools.painting_gestures import begin_stroke
 from engine.files.atomic import replacing
 from engine.files.fault import FileError
 from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.session.session import Session
 from engine.studio import faults, results
 from engine.studio import requests as q
+from engine.studio.outline import rows
 
 SCENE = results.Scene(Rect(0, 0, 64, 48), (), None, False, False, modified=False, path=None)
 
@@ -138,3 +144,20 @@ def test_details_tell_versions_system_graphics_and_the_end_of_the_log(tmp_path, 
     assert told.endswith("\nline 2999\nKeyError: 'missing key'")
     assert 8000 < len(told) < 9000
     assert all(line in log.read_text().splitlines() for line in told.partition("\n\n")[2].splitlines())
+
+
+def test_why_nothing_can_be_painted_on_a_layer_is_told_while_it_is_so(screen):
+    session = Session()
+    session.do(c.AddLayer("Leaves"))
+
+    def hear():
+        screen.hear(replace(SCENE, layers=tuple(rows(session.painting.root)), active=session.painting.active))
+
+    session.do(c.parse({"do": "layer", "set": "Leaves", "locked": True}))
+    hear()
+    assert begin_stroke(screen.desk, PenEvent("down", 5.0, 5.0)) is None
+    hear()
+    assert screen.desk.message.text == "Layer “Leaves” is locked"
+    session.do(c.parse({"do": "undo"}))
+    hear()
+    assert screen.desk.message.text == ""

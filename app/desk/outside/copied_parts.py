@@ -60,7 +60,10 @@ def cut_part(desk: Desk) -> None:
 def paste_part(desk: Desk) -> None:
     """Lays what was copied here on a layer of its own, where it was."""
     copied, scene = desk.selecting.copied, desk.known.scene
-    if copied is None or scene is None or copied.serial != scene.serial:
+    if copied is None or scene is None:
+        desk.say("Nothing was copied yet", bad=True)
+        return
+    if copied.serial != scene.serial:
         desk.say("What was copied lies in another painting", bad=True)
         return
     desk.post(Do(PastePaint(free_name("Pasted", _names(desk)))))

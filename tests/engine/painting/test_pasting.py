@@ -95,7 +95,7 @@ def test_the_file_has_nothing_of_it_and_nothing_is_pasted_after_opening(tmp_path
     opened = open_painting(place).painting
     assert [node.name for node in layers.walk(opened.root)] == ["Layer 1"]
     for empty in (Session(opened), Session(GROUND)):
-        with pytest.raises(Refusal, match="found nothing that was copied"):
+        with pytest.raises(Refusal, match="nothing was copied or cut"):
             empty.do(c.parse(PASTE))
         assert empty.log == []
 
