@@ -4,8 +4,7 @@ the bytes that these take."""
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterable, Iterator
 
 from immutables import Map
 
@@ -26,76 +25,38 @@ _FEW = 256  # places that are looked at one by one
 OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 
 
-class _Common:
-    """The records in memory of the pyramids that two states of the layers share: hundreds, where layers are many, so
-    each place is looked up once in all of them."""
-
-    def __init__(self, pyramids: Sequence[Pyramid]) -> None:
-        self.pyramids = pyramids
-        self._levels: dict[int, list[Level]] = {}
-        self._lookups: dict[int, list[Callable[[TilePlace], Record | None]]] = {}
-        self._found: dict[TileKey, list[Record]] = {}
-
-    def levels(self, level: int) -> list[Level]:
-        """Returns what they have of a level."""
-        found = self._levels.get(level)
-        if found is None:
-            found = self._levels[level] = _levels_of(self.pyramids, level)
-        return found
-
-    def at(self, key: TileKey) -> list[Record]:
-        """Returns the records of a tile."""
-        found = self._found.get(key)
-        if found is None:
-            lookups, place = self._lookups_in(key.level), (key.x, key.y)
-            found = self._found[key] = [record for get in lookups if (record := get(place)) is not None]
-        return found
-
-    def _lookups_in(self, level: int) -> list[Callable[[TilePlace], Record | None]]:
-        found = self._lookups.get(level)
-        if found is None:
-            there = self.levels(level)
-            found = [partial(_in_memory, one) if isinstance(one, PagedLevel) else one.get for one in there]
-            self._lookups[level] = found
-        return found
-
-
 class _Holding:
-    """The records in memory of a state of the layers, looked for in all of them: a copy of a layer shares them.
+    """The records in memory of a state of the layers, looked for in all of them: a copy of a layer shares them."""
 
-    `own`: pyramids that the other state has not; `common`: those that both have.
-    """
-
-    def __init__(self, own: Sequence[Pyramid], common: _Common) -> None:
-        self._own, self._common = own, common
+    def __init__(self, root: Group) -> None:
+        self._pyramids = list(pyramids(root).values())
         self._levels: dict[int, list[Level]] = {}
 
-    def holds(self, key: TileKey, record: Record) -> bool:
+    def holds(self, key: TileKey, record: Record | None) -> bool:
         """Tells whether some layer has a record at its place."""
-        own = self._levels.get(key.level)
-        if own is None:
-            own = self._levels[key.level] = _levels_of(self._own, key.level)
         place = key.x, key.y
-        return any(_in_memory(level, place) is record for level in own) or record in self._common.at(key)
+        return any(_in_memory(level, place) is record for level in self._of(key.level))
 
     def lacks(self, pyramid: Pyramid) -> int:
         """Counts the bytes in memory of what no layer has of a pyramid: of records, and of attenuations that wait."""
-        pyramids = (*self._own, *self._common.pyramids)
-        there_wait = {waits.change.serial for one in pyramids for waits in one.waiting()}
+        there_wait = {waits.change.serial for one in self._pyramids for waits in one.waiting()}
         size = sum(waits.nbytes for waits in pyramid.waiting() if waits.change.serial not in there_wait)
         for level, stored in pyramid.levels.items():
-            there = _levels_of(self._own, level) + self._common.levels(level)
+            there = self._of(level)
             if any(one is stored for one in there):
                 continue
             for place, record in _all_in_memory(stored, there):
-                if not self.holds(TileKey(level, *place), record):
+                if not any(_in_memory(one, place) is record for one in there):
                     size += record.nbytes
         return size
 
-
-def _levels_of(pyramids: Sequence[Pyramid], level: int) -> list[Level]:
-    """Returns what some pyramids have of a level."""
-    return [one for pyramid in pyramids if (one := pyramid.levels.get(level)) is not None]
+    def _of(self, level: int) -> list[Level]:
+        """Returns what the layers have of a level."""
+        found = self._levels.get(level)
+        if found is None:
+            stored = (pyramid.levels.get(level) for pyramid in self._pyramids)
+            found = self._levels[level] = [one for one in stored if one is not None]
+        return found
 
 
 def _in_memory(level: Level, place: TilePlace) -> Record | None:
@@ -120,30 +81,32 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
     """Returns bytes that only `old` holds, and bytes that only `new` holds, in whichever layer."""
     before = {layer.id: layer for layer in layers.layers(old)}
     after = {layer.id: layer for layer in layers.layers(new)}
+    in_old, in_new = _Holding(old), _Holding(new)
     lost = gained = 0
     for number in before.keys() | after.keys():
         one, other = before.get(number), after.get(number)
         lost += _regrown(one.growth if one else (), other.growth if other else ())
         gained += _regrown(other.growth if other else (), one.growth if one else ())
     here, there = pyramids(old), pyramids(new)
-    common = _Common([one for sheet, one in here.items() if there.get(sheet) is one])
-    changed = [sheet for sheet in here.keys() | there.keys() if here.get(sheet) is not there.get(sheet)]
-    in_old, in_new = (_Holding([state[s] for s in changed if s in state], common) for state in (here, there))
-    for sheet in changed:
+    for sheet in here.keys() | there.keys():
         a, b = here.get(sheet), there.get(sheet)
+        if a is b:
+            continue
         if a is None or b is None or a.uid != b.uid:
             lost += in_new.lacks(a) if a is not None else 0
             gained += in_old.lacks(b) if b is not None else 0
             continue
         for key, record, beside in _apart(a, b):
-            lost += 0 if record is None or in_new.holds(key, record) else _alone(record, beside)
-            gained += 0 if beside is None or in_old.holds(key, beside) else _alone(beside, record)
+            lost += 0 if in_new.holds(key, record) else _alone(record, beside)
+            gained += 0 if in_old.holds(key, beside) else _alone(beside, record)
         lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
     return lost, gained
 
 
-def _alone(record: Record, beside: Record | None) -> int:
+def _alone(record: Record | None, beside: Record | None) -> int:
     """Returns the bytes that a record does not share with the one in its place."""
+    if record is None:
+        return 0
     if beside is not None and isinstance(record.held, SparsePlanes) and isinstance(beside.held, SparsePlanes):
         return record.held.alone(beside.held) + RECORD_OVERHEAD
     return record.nbytes

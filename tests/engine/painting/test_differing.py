@@ -74,37 +74,3 @@ def test_what_is_folded_in_far_from_the_stroke_is_found_without_looking_at_all(m
     assert told(before, after) == by_looking(before, after)
     assert any(key.level == 2 and key.x < 3 for key, _, _ in differing.changed_records(before, after))
     assert 0 < len(looked) < 60
-
-
-def many_layers(count):
-    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
-    for n in range(count):
-        session.do(c.AddLayer(f"Layer {n}"))
-        session.do(stroke(count - 1 - n, 0))
-    session.do(c.DuplicateLayer(session.painting.active, "Copy"))
-    session.do(stroke(99, 0))
-    return session.history.steps.done[-1]
-
-
-def test_what_a_step_takes_is_counted_in_as_many_looks_however_many_layers_did_not_change(monkeypatch):
-    def lookups(step):
-        looked = []
-        with monkeypatch.context() as patch:
-            in_memory = differing._in_memory
-            patch.setattr(differing, "_in_memory", lambda level, place: looked.append(place) or in_memory(level, place))
-            at = differing._Common.at
-            patch.setattr(differing._Common, "at", lambda common, key: looked.append(key) or at(common, key))
-            assert differing.difference(step.before.root, step.after.root) == (step.lost, step.gained)
-        return len(looked)
-
-    assert lookups(many_layers(12)) == lookups(many_layers(3)) > 0
-
-
-def test_what_a_copy_of_the_layer_has_still_is_not_held_by_the_step_alone():
-    step = many_layers(3)
-    before, after = step.before.root, step.after.root
-    kept = {id(record) for layer in layers.layers(after) for _, record in layer.pyramid.all_records()}
-    shared = [record for _, record, _ in differing.changed_records(before, after) if id(record) in kept]
-    assert shared
-    new = sum(record.nbytes for _, record, _ in differing.changed_records(after, before))
-    assert differing.difference(before, after) == (0, new)
