@@ -85,6 +85,16 @@ def test_what_is_moved_keeps_its_turn(spin, x, y, level):
     assert shifted(there, level, -x, -y).similarity == pose.similarity
 
 
+@given(st.one_of(st.integers(-179, 180).map(float), st.floats(-180, 180, exclude_min=True)), places, bools)
+@example(30.0, Dyadic(0, 0), False)
+def test_what_is_half_as_large_halves_however_it_is_turned(degrees, about, mirror):
+    pose = respun(Pose(levels=-1, mirror=mirror), Spin(-1, 1.0, degrees), about, 0)
+    assert pose.similarity.halves
+    assert pose.wrong() is None
+    assert spin_of(pose).size == 1.0
+    assert spin_of(pose).levels == -1
+
+
 def test_turns_snap_to_quarters_and_by_steps_to_fifteen_degrees():
     spin = Spin(0, 1.0, 0.0)
     assert spin.turned(88.0).snapped_turn(False) == Spin(0, 1.0, 90.0)
