@@ -125,7 +125,7 @@ def _tiles_of(sources: Sources, layers: Read, loop: Copies) -> Tiles[Leaf, Found
             return _pixels(source, level, rect, layers, seen)
         return _pixels(source, level, rect, _nothing, seen) if isinstance(source, Mask) else None
 
-    return Tiles(loop, Drawing(lambda of: _asking(sources.steps(of)), copy, read, _drawn))
+    return Tiles(loop, Drawing(lambda of: _asking(sources.steps(of)), copy, read, _drawn), sources.portions)
 
 
 def _nothing(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:

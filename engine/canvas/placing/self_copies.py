@@ -9,6 +9,8 @@ copies of copies, of which there are ever more, are never told apart.
 Where frames lie over one another the pieces double with each turn.  A tile is made of `MOST_PIECES` and `MOST_READS` at
 most.  One that needs more ends after as many turns as their number allows, and shows the mean colour of all from there
 on.  All of that follows from the tile alone: its pixels are the same whatever else was asked for.
+
+With `portions` a tile is made some steps at a time; meanwhile one of few turns is shown.
 """
 
 from __future__ import annotations
@@ -17,12 +19,13 @@ import functools
 import itertools
 import threading
 from collections.abc import Callable, Generator, Iterator
-from typing import Generic, NamedTuple
+from typing import Generic, NamedTuple, cast
 
 import numpy as np
 
 from engine.canvas.placing.drawn_copies import Above, Copies, Drawing, FoundT, Shown, SourceT
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.portions import Portions, Work, run_through
 from engine.canvas.placing.sampling import Picture, source_level
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, set_in
 from engine.canvas.placing.unrolled import HIDING
@@ -32,6 +35,7 @@ TILED = 512  # pixels along the largest frame up to which copies are read from t
 MOST_PIECES = 4096  # in a tile of a larger one, besides one for each turn
 MOST_READS = 256  # pictures of layers, and tiles of small ones, in such a tile
 _TURNED_PIECE, _TURNED_READ = 8, 2  # for how many of them one counts that is turned
+_STEP = 8  # pieces that are made at a time, of which nothing is read
 _MEAN = 8  # pixels along the largest frame, at most, of which the mean colour is taken
 _LARGE_KEPT = 64  # tiles of large ones
 _PATHS = 1 << 14  # ways inwards that are kept
@@ -119,15 +123,15 @@ class _Wanted(NamedTuple):
     key: TileKey
 
 
-_Making = Generator["_Wanted", None, "np.ndarray | None"]  # asks for tiles that have to be made first
+_Making = Generator["_Wanted | None", None, "np.ndarray | None"]  # asks for tiles to be made first; None after a step
 
 
 class Tiles(Generic[SourceT, FoundT]):
     """The tiles of what some nodes show that hold `copies` of one another, or of themselves.  Safe for several
-    threads."""
+    threads.  `portions`: where those are gone on with that are not made at once; None: all are."""
 
-    def __init__(self, copies: Copies, drawing: Drawing[SourceT, FoundT]) -> None:
-        self.copies, self._drawing = copies, drawing
+    def __init__(self, copies: Copies, drawing: Drawing[SourceT, FoundT], portions: Portions | None = None) -> None:
+        self.copies, self._drawing, self._portions = copies, drawing, portions
         self._paths = _paths_of(tuple((node, tuple(held)) for node, held in copies.items()))
         self._sides = {node: max(map(_side, held)) for node, held in copies.items()}
         self._means: dict[Shown, np.ndarray | None] = {}
@@ -141,7 +145,7 @@ class Tiles(Generic[SourceT, FoundT]):
         return functools.partial(self.picture, node)
 
     def picture(self, node: Shown, level: int, rect: Rect) -> np.ndarray | None:
-        """Returns what a node shows of a rectangle: float32 (4, h, w), None where it is empty."""
+        """Returns what a node shows of a rectangle, by now: float32 (4, h, w), None where it is empty."""
         with self._lock:
             return self._picture(node, level, rect, self._tile)
 
@@ -167,20 +171,42 @@ class Tiles(Generic[SourceT, FoundT]):
         return self._small[wanted]
 
     def _tile(self, wanted: _Wanted) -> np.ndarray | None:
-        """Returns a tile; what it needs is made first, one after another: they may be too many for calls in calls."""
+        """Returns a tile, or what there is of it by now."""
+        begun = functools.partial(self._going_on, wanted)
+        return run_through(begun()) if self._portions is None else self._portions.shown(wanted, begun)
+
+    def _going_on(self, wanted: _Wanted) -> Work:
+        """Makes a tile; from the end of the first portion on there is something to show."""
         held = self._held(wanted)
         if wanted in held:
             return held[wanted]
-        waiting = [(wanted, self._make(wanted))]
-        while waiting:
+        making, meanwhile, steps = self._by_steps(self._make(wanted)), None, 0
+        while True:
+            steps += 1
+            try:
+                next(making)
+            except StopIteration as done:
+                self._hold(wanted, done.value)
+                return held[wanted]
+            if self._portions is not None and steps == self._portions.turns:
+                meanwhile = run_through(self._by_steps(self._make(wanted, steps)))
+            yield meanwhile
+
+    def _by_steps(self, making: _Making) -> Work:
+        """Makes a tile and, before it, those it needs, step by step: they may be too many for calls in calls."""
+        waiting: list[tuple[_Wanted | None, _Making]] = [(None, making)]
+        while True:
             try:
                 needed = next(waiting[-1][1])
             except StopIteration as done:
                 one, _ = waiting.pop()
+                if one is None:
+                    return cast("np.ndarray | None", done.value)
                 self._hold(one, done.value)
             else:
-                waiting.append((needed, self._make(needed)))
-        return held[wanted]
+                if needed is not None:
+                    waiting.append((needed, self._make(needed)))
+                yield None
 
     def _held(self, wanted: _Wanted) -> dict[_Wanted, np.ndarray | None]:
         return self._small if self.is_small(wanted.node, wanted.key.level) else self._large
@@ -196,34 +222,27 @@ class Tiles(Generic[SourceT, FoundT]):
         """Tells whether the frames in a node are so small at a level that its tiles are few."""
         return level + self._sides[node] <= TILED.bit_length() - 1
 
-    def _make(self, wanted: _Wanted) -> _Making:
-        key = wanted.key
+    def _make(self, wanted: _Wanted, pieces: int | None = None) -> _Making:
+        """Makes a tile; of so many `pieces`, if they are given."""
+        key, turns = wanted.key, None if pieces is None else max(1, self._turns(wanted, pieces))
         whole = _Piece(self._paths.first(wanted.node), key.rect, None, 0)
         try:
-            return (yield from _Work(self, self._drawing, key.level, None).drawn(whole))
+            return (yield from _Work(self, self._drawing, key.level, turns).drawn(whole))
         except _TooManyError:
-            turns = self._turns(wanted)
+            turns = self._turns(wanted, MOST_READS)
         return (yield from _Work(self, self._drawing, key.level, turns).drawn(whole))
 
-    def _turns(self, wanted: _Wanted) -> int:
-        """Returns how many turns of copies there are pieces enough for in a tile."""
+    def _turns(self, wanted: _Wanted, most: int) -> int:
+        """Returns how many turns of copies so many pieces are enough for in a tile."""
         key = wanted.key
         edge, count, turns = [(self._paths.first(wanted.node), key.rect)], 0, 0
         while edge:
-            edge = list(self._next(edge, key.level))
+            edge = list(_next(self.copies, edge, key.level))
             count += sum(_TURNED_READ if path.turned else 1 for path, _ in edge)
-            if count > MOST_READS:
+            if count > most:
                 break
             turns += 1
         return turns
-
-    def _next(self, edge: list[tuple[_Path, Rect]], level: int) -> Iterator[tuple[_Path, Rect]]:
-        for path, rect in edge:
-            for copy in self.copies[path.node]:
-                inner = path.inner(copy)
-                part = inner.part(level, rect)
-                if not part.empty:
-                    yield inner, part
 
     def mean(self, node: Shown, level: int, rect: Rect) -> np.ndarray | None:
         """Returns pixels of the mean colour of all that copies show of a node, for a tile of a level."""
@@ -238,6 +257,15 @@ class Tiles(Generic[SourceT, FoundT]):
             self._means[node] = None if colour is None else colour[:, None, None]
         mean = self._means[node]
         return None if mean is None else np.broadcast_to(mean, (4, rect.height, rect.width))
+
+
+def _next(copies: Copies, edge: list[tuple[_Path, Rect]], level: int) -> Iterator[tuple[_Path, Rect]]:
+    for path, rect in edge:
+        for copy in copies[path.node]:
+            inner = path.inner(copy)
+            part = inner.part(level, rect)
+            if not part.empty:
+                yield inner, part
 
 
 def _side(copy: Placement) -> int:
@@ -256,7 +284,7 @@ class _Work(Generic[SourceT, FoundT]):
         self, tiles: Tiles[SourceT, FoundT], drawing: Drawing[SourceT, FoundT], level: int, most: int | None
     ) -> None:
         self._tiles, self._drawing, self._level, self._most = tiles, drawing, level, most
-        self._pieces = self._reads = self._deepest = 0
+        self._pieces = self._reads = self._deepest = self._drawn = 0
 
     def drawn(self, piece: _Piece) -> _Making:
         """Returns the pixels of a piece: float32 (4, h, w), None where it is empty."""
@@ -270,13 +298,16 @@ class _Work(Generic[SourceT, FoundT]):
                 pixels = done.value
             else:
                 pixels = None
-                if isinstance(inner, _Piece):
-                    waiting.append(self._drawing_of(inner))
-                else:
+                if not isinstance(inner, _Piece):
                     yield inner
+                    continue
+                waiting.append(self._drawing_of(inner))
+                self._drawn += 1
+                if self._drawn % _STEP == 0:
+                    yield None
         return pixels
 
-    def _drawing_of(self, piece: _Piece) -> Generator[_Piece | _Wanted, np.ndarray | None, np.ndarray | None]:
+    def _drawing_of(self, piece: _Piece) -> Generator[_Piece | _Wanted | None, np.ndarray | None, np.ndarray | None]:
         """Asks for the pieces within one, and tiles that are to be made; returns its pixels."""
         path, rect, _, turn = piece
         self._count_piece(piece)
@@ -293,6 +324,8 @@ class _Work(Generic[SourceT, FoundT]):
             if copy is None:
                 pixels = self._drawing.read(source, self._level, rect, path.inside)
                 self._count_reads(path, pixels is not None)
+                if pixels is not None:
+                    yield None
                 continue
             inner, pixels = path.inner(copy), None
             part = inner.part(self._level, rect)

@@ -359,3 +359,34 @@ def test_turns_that_are_gone_on_with_come_to_the_same_to_the_bit(more, parts, wi
     first = np.abs(made[0][0] - complete).mean()
     assert 0 < first < 0.7 * np.abs(complete).mean() + 0.1
     np.testing.assert_array_equal(picture(planned, level, rect), complete)  # all at once, as exports
+
+
+@pytest.mark.parametrize(
+    ("name", "level", "within"), [("over one another", 60, False), ("turned", 6, False), ("four", 9, True)]
+)
+def test_several_copies_that_are_gone_on_with_come_to_the_same_to_the_bit(name, level, within):
+    """Also where what holds them is shown elsewhere; no picture on the way does more than its portion."""
+    root, (x, y) = copied(SPREAD[name], 0.4), fixed(SPREAD[name][0], level)
+    if within:
+        children = (replace(one, of=80) if isinstance(one, Placement) else one for one in root.children)
+        inner = Group(80, "g", visible=False, children=tuple(children))
+        root = replace(EMPTY, children=(inner, Placement(81, "shown", of=80)))
+    rect, reads = Rect.at(x - 20, y - 12, 40, 24), []
+
+    def read(layer, at, part):
+        reads.append(at)
+        return layer_planes(layer, at, part)
+
+    with fewer():
+        complete, portions = picture(root, level, rect), Portions(4)
+        planned, made = Planned.of(root, None, portions), []
+        while not made or not made[-1][1]:
+            reads.clear()
+            made.append(portions.picture(lambda: composite(planned, level, rect, read)))
+            assert len(reads) <= 4 * (4 + 8 * 2)
+        assert complete.any()
+        assert len(made) >= 2
+        np.testing.assert_array_equal(made[-1][0], complete)
+        first = np.abs(made[0][0] - complete).mean()
+        assert 0 < first < 0.7 * np.abs(complete).mean() + 0.1
+        np.testing.assert_array_equal(picture(planned, level, rect), complete)
