@@ -200,6 +200,8 @@ def _areas() -> Iterator[tuple[str, list[Any]]]:
     beyond = {"do": "select", "ellipse": [0, 61, -30, 90, 70]}
     torus = [{"do": "layer", "add": "above"}, cell, stroke(radius=19, ink=[ink("rock")]), beyond, stroke(mode="smooth")]
     yield "wrapped", [*torus, {"do": "fill", "like": {"at": [99, 9], "tolerance": 0.3}, "brush": {"colour": "#308070"}}]
+    round_it = {"at": [20, 11], "within": [[0, 0], [71, 4.3], [66, 55.7]], "regions": "line"}
+    yield "fill line", [GROUND, {"do": "fill", "like": round_it, "brush": {"colour": "#308070", "edge": "wet"}}]
     ruler = {"do": "guide", "name": "r", "kind": "perspective-3", "points": [[-90, 3], [210, 5.3], [40.7, 300]]}
     yield "guides", [ruler, GROUND, {**ruler, "points": [[-90, 3], [210, 7], [40, 300]], "snap": 0.3}, {"do": "undo"}]
     both = [{"name": "a", "part": [3, 4, 20, 30], "at": [-7, 5], "opacity": 0.7}, {"name": "b", "part": [0, 0, 36, 40]}]
@@ -214,7 +216,25 @@ def _areas() -> Iterator[tuple[str, list[Any]]]:
     yield "merged", [GROUND, above, stroke(ink=[ink("stripes", **WAVES)]), merged]
     again = {"do": "layer", "add": "again", "kind": "placement", "of": "Layer 1", "at": [31, -7]}
     yield "placed", [GROUND, {**again, "c": [0.6, 0.8]}, {**again, "add": "half", "levels": -1, "turn": 1}]
+    yield (
+        "placed masked",
+        [
+            GROUND,
+            {**again, "turn": 1},
+            {"do": "layer", "set": "again", "mask": {"op": "full"}},
+            {**onto, "layer": "again"},
+        ],
+    )
     yield "baked", [GROUND, {**again, "c": [0.9, 0.3], "mirror": True}, {"do": "layer", "bake": "again"}]
+
+
+def _heights() -> Iterator[tuple[str, list[Any]]]:
+    """What is heaped on a layer of heights, and beside the paint of another, seen in the light."""
+    land = {"do": "layer", "set": "Layer 1", "role": "height", "scale": 40}
+    hill = stroke(height=7.3, ink=[ink("rock", period=23.1)], radius=29)
+    yield "heaped", [GROUND, land, hill, stroke(*BACK, level=2, height="auto"), stroke(mode="smooth", height=2)]
+    yield "eroded", [GROUND, land, hill, {"do": "erode", "rect": [0, 9, 7, 72, 50], "talus": 0.37, "seed": 3}]
+    yield "impasto", [GROUND, stroke(impasto=3.7, radius=9), stroke(*BACK, mode="erase", radius=5)]
 
 
 def recordings() -> dict[str, list[Any]]:
@@ -225,6 +245,7 @@ def recordings() -> dict[str, list[Any]]:
         _layered(),
         _made(),
         _areas(),
+        _heights(),
         _grown(),
     )
     return {name: commands for part in parts for name, commands in part}
@@ -256,7 +277,8 @@ def hashes(painting: Painting, folder: Path) -> list[str]:
         pixels.update(read_image(folder / "out.png", "out.png")[0].tobytes())
     for layer in layers(painting.root):
         for level, rect in (*PLACES, DEEP):
-            values.update(evaluate(layer.pyramid, level, rect).data.tobytes())
+            for pyramid in (layer.pyramid, *(layer.heaps[unit] for unit in sorted(layer.heaps))):
+                values.update(evaluate(pyramid, level, rect).data.tobytes())
     return [pixels.hexdigest()[:16], values.hexdigest()[:16]]
 
 
