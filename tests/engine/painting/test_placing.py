@@ -107,6 +107,21 @@ def test_what_cannot_be_done_is_refused_and_nothing_has_changed():
     assert session.painting is before
 
 
+def test_a_layer_that_is_moved_into_what_it_shows_is_refused_and_nothing_has_changed():
+    session = done(
+        {"do": "layer", "add": "Wood", "kind": "group"},
+        {"do": "layer", "move": "Tree", "to": 0, "group": "Wood"},
+        stroke(1),
+        {"do": "layer", "add": "Grove", "kind": "group", "group": None},
+        placement("Again", of="Wood", group="Grove"),
+    )
+    before = session.painting
+    for name in ("Again", "Grove"):
+        with pytest.raises(Refusal, match="Again"):
+            session.do(c.parse({"do": "layer", "move": name, "to": 0, "group": "Wood"}))
+    assert session.painting is before
+
+
 def test_a_group_with_its_placements_can_go_and_be_copied():
     session = done(
         {"do": "layer", "add": "Wood", "kind": "group"},
