@@ -9,7 +9,7 @@ block is read from the top layer down, and reading stops at a layer that hides a
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from typing import Protocol, cast
 
@@ -116,7 +116,7 @@ def _tiles_of(sources: Sources, layers: Read, loop: Copies) -> Tiles[Leaf, Found
         return source.placement if isinstance(source, Placed) and source.of in loop else None
 
     def read(source: Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
-        with nullcontext() if sources.portions is None else sources.portions.all_of_it():  # it is kept
+        with _all_of_it(sources):  # it is kept
             return found(source, level, rect, seen)
 
     def found(source: Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
@@ -126,6 +126,11 @@ def _tiles_of(sources: Sources, layers: Read, loop: Copies) -> Tiles[Leaf, Found
         return _pixels(source, level, rect, _nothing, seen) if isinstance(source, Mask) else None
 
     return Tiles(loop, Drawing(lambda of: _asking(sources.steps(of)), copy, read, _drawn), sources.portions)
+
+
+def _all_of_it(sources: Sources) -> AbstractContextManager[None]:
+    """Makes no portions of what is asked for meanwhile."""
+    return nullcontext() if sources.portions is None else sources.portions.all_of_it()
 
 
 def _nothing(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
@@ -183,8 +188,12 @@ def _through(source: Placed, level: int, rect: Rect, read: Read, through: Seen) 
     def picture(at: int, part: Rect) -> np.ndarray | None:
         return _picture(plan, at, part, read, UNPLACED)
 
+    def whole(at: int, part: Rect) -> np.ndarray | None:
+        with _all_of_it(sources):
+            return picture(at, part)
+
     cell = source.placement.part if source.placement.repeat else None
-    shown = picture if sources.shared is None else sources.shared.kept(of, picture)
+    shown = sources.shared.kept(of, whole) if sources.shared is not None and sources.shared.keeps(of) else picture
     return looked_through(repeated(shown, cell), level, rect, through)
 
 

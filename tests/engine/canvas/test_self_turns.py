@@ -390,3 +390,23 @@ def test_several_copies_that_are_gone_on_with_come_to_the_same_to_the_bit(name, 
         first = np.abs(made[0][0] - complete).mean()
         assert 0 < first < 0.7 * np.abs(complete).mean() + 0.1
         np.testing.assert_array_equal(picture(planned, level, rect), complete)
+
+
+@pytest.mark.parametrize("name", ["half", "two"])
+def test_a_group_that_holds_such_a_picture_is_kept_only_as_a_whole(name):
+    """Its tiles are kept where there are many placements: what is gone on with would never come to its end."""
+    root, level = (itself(POSES["half"], below=0.05), 40) if name == "half" else (copied(SPREAD["turned"], 0.4), 6)
+    x, y = fixed(POSES["half"] if name == "half" else SPREAD["turned"][0], level)
+    inner = (replace(one, of=80) if isinstance(one, Placement) else one for one in root.children)
+    holder = Group(83, "holder", visible=False, children=(Placement(84, "in it", of=80),))
+    many = (Placement(200 + n, f"many {n}", of=83, visible=n == 0) for n in range(33))
+    root = replace(EMPTY, children=(Group(80, "g", visible=False, children=tuple(inner)), holder, *many))
+    rect, portions = Rect.at(x - 40, y - 32, 80, 64), Portions(4)
+    with fewer():
+        complete = picture(root, level, rect)
+        planned, made = Planned.of(root, None, portions), []
+        while not made or not made[-1][1]:
+            made.append(portions.picture(lambda: composite(planned, level, rect, layer_planes)))
+        assert complete.any()
+        np.testing.assert_array_equal(made[-1][0], complete)
+        np.testing.assert_array_equal(picture(planned, level, rect), complete)

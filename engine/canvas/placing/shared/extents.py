@@ -90,10 +90,14 @@ class Shared:
         self._found: dict[tuple[int, int], Rect | None] = {}
         self._pictures = KeptPictures()
 
-    def kept(self, of: int | None, picture: Picture) -> Picture:
-        """Returns the picture of a node; of one that is no layer, and does not show itself, with its tiles kept."""
+    def keeps(self, of: int | None) -> bool:
+        """Tells whether tiles of the picture of a node are kept: of one that is no layer, and does not show itself."""
         node = self._node(of)
-        return picture if isinstance(node, Layer) or node.id in self._anywhere else self._pictures.of(of, picture)
+        return not isinstance(node, Layer) and node.id not in self._anywhere
+
+    def kept(self, of: int | None, picture: Picture) -> Picture:
+        """Returns the whole picture of such a node with its tiles kept."""
+        return self._pictures.of(of, picture)
 
     def _node(self, of: int | None) -> Node:
         return self._root if of is None else self._nodes[of]
