@@ -20,9 +20,10 @@ from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
 from engine.canvas.growth import Growth
 from engine.canvas.heaps import heaping
-from engine.canvas.layers import Group
+from engine.canvas.layers import Group, Layer
 from engine.canvas.painted import tile_bounds
 from engine.canvas.selecting.mask_sheet import repainted
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.prediction import Predictor
 from engine.painting.grown import threads
@@ -156,7 +157,8 @@ class LiveStroke(Drawn):
     def _painted(self, covered: StrokeMask | Coverage, thinning: Thinning | None) -> Edit:
         scene = replace(self._scenery.scene, arithmetic=self.before.arithmetic)
         locked = self.layer.alpha_locked
-        made = edits.edit(self.brush, covered, self._ink, locked, self._read, thinning, scene)
+        read = partial(_read, self.layer, self.level, self.cache)  # not of `self`, which would then hold itself
+        made = edits.edit(self.brush, covered, self._ink, locked, read, thinning, scene)
         return edit_of(made, self.layer)
 
     @property
@@ -165,9 +167,6 @@ class LiveStroke(Drawn):
         if self._plan is not None and self._edit is None:
             _ = self.edit
         return self._heap_edits
-
-    def _read(self, rect: Rect) -> Planes:
-        return greys_of(around(self.layer, self.level, rect, self.cache), self.layer)
 
     def preview(self, rect: Rect) -> Planes:
         """Returns the layer's paint in `rect` at the stroke's level, as it will be."""
@@ -187,3 +186,7 @@ class LiveStroke(Drawn):
         if self.bed is not None and self.bed.growth is not self.layer.growth:
             root = layers.with_growth(root, name, self.bed.growth)
         return self.base if root is self.base.root else replace(self.base, root=root)
+
+
+def _read(layer: Layer, level: int, cache: TileCache | None, rect: Rect) -> Planes:
+    return greys_of(around(layer, level, rect, cache), layer)
