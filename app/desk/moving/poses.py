@@ -81,11 +81,11 @@ def _told(spin: Spin, mirror: bool) -> Pose:
     angle = math.radians(spin.degrees)
     size, levels = (spin.size, spin.levels) if spin.size < 1.5 else (spin.size / 2, spin.levels + 1)
     turned = size * math.cos(angle), size * math.sin(angle)
-    return Pose(levels=levels, turned=_no_longer(*turned) if size == 1.0 else turned, mirror=mirror)
+    return Pose(levels=levels, turned=_at_most_one(*turned) if size == 1.0 else turned, mirror=mirror)
 
 
-def _no_longer(re: float, im: float) -> tuple[float, float]:
-    """Returns a turn of length 1 or a hair less: a picture in itself that is longer by a rounding does not halve."""
+def _at_most_one(re: float, im: float) -> tuple[float, float]:
+    """Returns a turn of length 1, or a hair less: of a longer one a picture in itself at a half does not halve."""
     while Fraction(re) ** 2 + Fraction(im) ** 2 > 1:
         re, im = (math.nextafter(re, 0.0), im) if abs(re) > abs(im) else (re, math.nextafter(im, 0.0))
     return re, im
