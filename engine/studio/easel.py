@@ -10,6 +10,7 @@ import numpy as np
 
 from engine.canvas.growth import Growth
 from engine.checks.owned import Owned
+from engine.keeping import collecting
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import NEWEST
 from engine.painting import commands as c
@@ -55,6 +56,7 @@ class Easel(Owned):
         self.viewer.forget()
         self.tell()
         self.viewer.changed(lambda level: None)
+        collecting.look_anew()
 
     def carry_out(self, command: c.Command, lent: ImageSource | None = None) -> None:
         """Does a command, after the stroke in progress; what it changed on the screen is brought up to date.
@@ -63,6 +65,7 @@ class Easel(Owned):
         """
         if self.live is not None:
             self.finish()
+        collecting.pass_over()
         self.viewer.look_back(None)
         before = self.session.painting
         after = self.session.do(command, lent)
@@ -76,6 +79,7 @@ class Easel(Owned):
         """Begins a stroke whose points come later."""
         if self.live is not None:
             self.finish()
+        collecting.pass_over()
         self.viewer.look_back(None)
         about = stroke.layer, stroke.seed, stroke.copies, stroke.onto
         self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, *about)

@@ -15,6 +15,7 @@ from collections.abc import Callable
 import numpy as np
 
 from engine.brush.settings import Brush
+from engine.keeping import collecting
 from engine.keeping.memory import resident
 from engine.painting import commands as c
 from engine.session.session import Session
@@ -72,6 +73,7 @@ def _stroke(session: Session, at: tuple[int, int, int, str | None], rng: np.rand
     points = np.zeros((20, 6))
     points[:, :2] = np.cumsum(rng.uniform(-6, 6, (20, 2)), axis=0)
     points[:, 2] = rng.uniform(0.4, 1.0, 20)
+    collecting.pass_over()  # as the window's engine does
     live = session.begin(level, (x, y), BRUSH, layer)
     for first in range(0, len(points), AT_ONCE):
         live.add(points[first : first + AT_ONCE])

@@ -21,6 +21,7 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.brush.settings import Brush, Component
 from engine.canvas.layers import layers
+from engine.keeping import collecting
 from engine.keeping.memory import resident
 from engine.painting import commands as c
 from engine.session.session import Session
@@ -75,6 +76,7 @@ def _stroke(session: Session, level: int, rng: np.random.Generator) -> None:
     points[:, :2] = np.cumsum(rng.normal(0.0, 8.0, (POINTS, 2)), axis=0)
     points[:, 2] = rng.uniform(0.4, 1.0, POINTS)
     x, y = rng.integers(0, side, 2).tolist()
+    collecting.pass_over()  # as the window's engine does
     live = session.begin(level, (x, y), brush, f"Layer {rng.integers(1, LAYERS + 1)}")
     for first in range(0, POINTS, AT_ONCE):
         live.add(points[first : first + AT_ONCE])
