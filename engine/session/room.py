@@ -19,6 +19,7 @@ _APART = 32 << 20  # bytes that the process grows by before it is looked after a
 _PASSING = 256 << 20  # bytes that come and go at once, as a save takes them, for which there is room: at most these
 _PASSING_PART = 4  # and of the budget such a part
 _GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
+_GROWN_PART = 16  # or such a part of what it took: a look for what is free takes the longer the more there is
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
 _SPARED_PARTS = 4  # of what it may take: where but one of them is left, pages are spared until two are
 _AGAIN = 2.0  # seconds after which it is, at the latest
@@ -58,7 +59,7 @@ class Room(Owned):
         process takes more than the budget."""
         most, held = _most(), memory.resident()
         self._settled = min(self._settled, held)
-        self._grown = held - self._settled > _GROWN
+        self._grown = held - self._settled > max(_GROWN, self._settled // _GROWN_PART)
         self._spare(held, most)
         if held <= most:
             self.history.tight = False
@@ -111,7 +112,8 @@ class Room(Owned):
     @property
     def pending(self) -> int:
         """Counts what is to be made smaller, or given back, while nothing else is to be done."""
-        free = self._grown or self._cache.evicted - self._evicted > _APART
+        evicted = self._cache.evicted - self._evicted
+        free = self._grown or evicted > max(_APART, self._settled // _GROWN_PART)
         return self.history.pending + int(self._paging.wanted > 0) + int(free)
 
     def step(self) -> None:

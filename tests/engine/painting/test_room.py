@@ -110,3 +110,14 @@ def test_what_came_and_went_is_given_back_at_rest_however_little_is_taken(proces
     process.free = 80
     room.keep_within(Painting().root)
     assert room.pending
+
+
+def test_the_more_is_taken_the_more_may_be_free_before_it_is_given_back(process):
+    room = Room(TileCache(MEGABYTE), History())
+    room._settled = 1600 * MEGABYTE
+    process.used, process.free = 1600, 90
+    room.keep_within(Painting().root)
+    assert not room.pending
+    process.free = 110
+    room.keep_within(Painting().root)
+    assert room.pending
