@@ -29,11 +29,13 @@ def test_a_picture_of_another_program_is_pasted_as_a_layer_and_the_frame_is_copi
     app.settled()
     with other(app, "give") as giver:
         assert giver.stdout.readline() == "given\n"
-        app.do("mousemove", 640, 300)
+        app.move_to((605, 380))  # near the middle of the frame, whose pixel is asked for below
         app.keys("ctrl+v")
         red = app.until(lambda screen: _red(screen).sum() > 3000)
         rows, columns = np.nonzero(_red(red))
         assert 1.4 < np.ptp(columns) / np.ptp(rows) < 1.6  # 120 x 80
+        assert abs(rows.mean() + 140 - 380) < 4  # where the pointer was
+        assert abs(columns.mean() + 280 - 605) < 4
         giver.kill()
     app.wait_for("where it belongs")
     app.keys("ctrl+shift+c")

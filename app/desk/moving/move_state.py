@@ -9,7 +9,7 @@ from typing import NamedTuple
 from app.desk.known import Known
 from app.desk.moving.sheet_state import SheetState
 from engine.canvas.placing.pose import UNMOVED, Pose
-from engine.studio.moving.move_requests import AskExtent, Extent
+from engine.studio.moving.move_requests import AskExtent, Extent, Try
 from engine.studio.requests import Request
 from engine.studio.results import LayerRow, Scene
 
@@ -89,6 +89,13 @@ class MoveState:
         waits, self.waits = self.waits, None
         if waits is not None:
             waits()
+
+    def refused(self, post: Callable[[Request], None], known: Known) -> None:
+        """Has what was set down seen where it is, as it cannot be where it was asked for; not while it is dragged."""
+        trial = self.trial
+        if trial is not None and trial.scene is known.scene and self.label is None:
+            self.trial = None
+            post(Try(trial.name, None))
 
     def empty(self, known: Known, row: LayerRow, selected: bool) -> bool:
         """Tells whether it is known that nothing is painted on it now, or of what is `selected`."""

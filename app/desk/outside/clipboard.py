@@ -58,9 +58,11 @@ class _Paste(FileWork):
 
 
 def paste(desk: Desk) -> None:
-    """Lays what was copied last on a layer of its own: here, where it was; elsewhere, in the middle of the view."""
-    copied = desk.selecting.copied
-    desk.work(_Paste(desk.view.to_canvas(*desk.middle()), "" if copied is None else copied.mark))
+    """Lays what was copied last on a layer of its own: here, where it was; elsewhere, at the pointer, or in the middle
+    of the view where that is not over the canvas."""
+    copied, pointer = desk.selecting.copied, desk.pointer
+    place = (pointer.x, pointer.y) if pointer.over_canvas else desk.middle()
+    desk.work(_Paste(desk.view.to_canvas(*place), "" if copied is None else copied.mark))
 
 
 def _text() -> str:
