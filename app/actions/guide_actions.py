@@ -64,7 +64,10 @@ GUIDE_ACTIONS: dict[str, A] = {
     "hide_guide": A("Hide the guide", "Guides", (), "Turn off the guide that is chosen", _hide, _chosen),
     "hidden_guides": A("Bring hidden guides back", "Guides", (), "Turn all guides on", assistants.show_all, _hidden),
     "delete_guide": A("Delete the guide", "Guides", (), "Take the chosen guide away", assistants.remove_it, _chosen),
-    "symmetry": A("Symmetry", "Guides", ("Y",), "Paint with symmetry, or without", symmetry.toggle, ready, _symmetric),
+    "symmetry": A(
+        "Symmetry", "Guides", ("Y",), "Paint with symmetry, or without; its kind is in the brush settings",
+        symmetry.toggle, ready, _symmetric,
+    ),
     "symmetry_here": A(
         "Bring the symmetry here", "Guides", (), "Its centre comes into the middle of what you see",
         symmetry.bring_here, _drawn,
