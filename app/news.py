@@ -28,8 +28,6 @@ Source = Callable[[], Sequence[Result | Done]]
 
 def _note(desk: Desk, note: results.Note, _now: float) -> None:
     desk.told(note)
-    if note.bad:
-        desk.moving.refused(desk.post, desk.known)
 
 
 def _saved(desk: Desk, saved: results.Saved, _now: float) -> None:

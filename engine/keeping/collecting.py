@@ -13,14 +13,18 @@ import gc
 _PASSES = 4  # of the interpreter's looks through young objects, some 7,000 each: so many new ones are looked through
 
 
-def pass_over() -> None:
-    """Looks through what is new, if that is much, and has it passed over from then on.
+def due() -> bool:
+    """Tells whether there is so much that is new that it is worth a look."""
+    return gc.isenabled() and gc.get_count()[2] >= _PASSES
 
-    It is for moments at which nothing is half done: before a stroke, before a command.
+
+def pass_over() -> None:
+    """Looks through what is new, and has it passed over from then on.
+
+    It is for moments at which nothing is half done: while nothing else is to be done, between strokes.
     """
-    if gc.isenabled() and gc.get_count()[2] >= _PASSES:
-        gc.collect()
-        gc.freeze()
+    gc.collect()
+    gc.freeze()
 
 
 def look_anew() -> None:

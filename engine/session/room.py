@@ -59,7 +59,7 @@ class Room(Owned):
         process takes more than the budget."""
         most, held = _most(), memory.resident()
         self._settled = min(self._settled, held)
-        self._grown = held - self._settled > max(_GROWN, self._settled // _GROWN_PART)
+        self._grown = held - self._settled > self._worth(_GROWN)
         self._spare(held, most)
         if held <= most:
             self.history.tight = False
@@ -94,6 +94,10 @@ class Room(Owned):
             self._sparing = False
             spare_memory(False)
 
+    def _worth(self, least: int) -> int:
+        """Returns the bytes beyond which a look for what is free is worth its time, `least` at least."""
+        return max(least, self._settled // _GROWN_PART)
+
     def _due(self, held: int, most: int) -> bool:
         """Tells whether it is time to look after the memory of a process that holds so many bytes: it holds too much,
         and more than it was left with, or that is some time ago.  Of what came and went since, as a save does, the
@@ -112,8 +116,7 @@ class Room(Owned):
     @property
     def pending(self) -> int:
         """Counts what is to be made smaller, or given back, while nothing else is to be done."""
-        evicted = self._cache.evicted - self._evicted
-        free = self._grown or evicted > max(_APART, self._settled // _GROWN_PART)
+        free = self._grown or self._cache.evicted - self._evicted > self._worth(_APART)
         return self.history.pending + int(self._paging.wanted > 0) + int(free)
 
     def step(self) -> None:

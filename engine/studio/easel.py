@@ -65,7 +65,6 @@ class Easel(Owned):
         """
         if self.live is not None:
             self.finish()
-        collecting.pass_over()
         self.viewer.look_back(None)
         before = self.session.painting
         after = self.session.do(command, lent)
@@ -79,7 +78,6 @@ class Easel(Owned):
         """Begins a stroke whose points come later."""
         if self.live is not None:
             self.finish()
-        collecting.pass_over()
         self.viewer.look_back(None)
         about = stroke.layer, stroke.seed, stroke.copies, stroke.onto
         self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, *about)

@@ -11,6 +11,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from engine.checks.owned import Owned
+from engine.keeping import collecting
 from engine.keeping.preferences import Preferences
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
@@ -114,8 +115,7 @@ class Studio(Owned):
             *_each(AntsFinder(easel), TintFinder(easel)),
             _of(Regions(send)),
             _of(self.lab),
-            _of(MaskPictures(easel)),
-            _of(Trials(easel)),
+            *_each(MaskPictures(easel), Trials(easel)),
             *_each(Moves(easel), FrameFitter(easel)),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
             Work(lambda: past.untold, past.tell),
@@ -124,6 +124,7 @@ class Studio(Owned):
             *_each(Wearer(easel), Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
             _of(past),
             Work(lambda: easel.session.room.pending, lambda: easel.session.room.step()),
+            Work(lambda: int(easel.live is None and collecting.due()), collecting.pass_over),
         )
         self._handlers: q.Handlers = {
             q.Do: lambda r: travels.carry_out(timed(r.command, r.time), r.over_symmetry, r.lent),

@@ -6,17 +6,17 @@ import pytest
 
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
+from app.desk.moving import held_box
 from app.desk.moving.move_hints import move_hint
 from app.desk.moving.move_state import Label, Trial
 from app.input.events import PenEvent
-from app.news import HEARS
 from app.tools.moving_gestures import move
 from engine.canvas.placing.pose import UNMOVED, Pose, SourcePart
 from engine.numeric.address import Rect
 from engine.painting.select_commands import Select, Whole
 from engine.studio.layer_rows import LayerRow
 from engine.studio.moving.move_requests import Extent, Try
-from engine.studio.results import Note, Scene
+from engine.studio.results import Scene
 
 ROW = LayerRow("Sky", False, 0, None, 0, 1.0, True, "src-over", False, False)
 PAINT = SourcePart(0, Rect(0, 0, 9, 9))
@@ -68,16 +68,14 @@ def test_what_was_refused_is_seen_where_it_is():
     desk, posted = desk_with(ROW)
     turned = Pose(turn=1)
     desk.moving.trial = Trial(desk.known.scene, ROW.name, turned)
-    hear(desk, Note("saved"))
+    desk.behind = lambda: True  # it is not answered yet
+    held_box.wants(desk)
     assert desk.moving.pose(desk.known, ROW) == turned
+    desk.behind = lambda: False
     desk.moving.label = Label("turn 90°", True)  # another drag has begun
-    hear(desk, Note("refused", bad=True))
+    held_box.wants(desk)
     assert desk.moving.pose(desk.known, ROW) == turned
     desk.moving.label = None
-    hear(desk, Note("refused", bad=True))
+    held_box.wants(desk)
     assert desk.moving.pose(desk.known, ROW) == UNMOVED
-    assert posted == [Try(ROW.name, None)]
-
-
-def hear(desk, note):
-    HEARS[Note](desk, note, 0.0)
+    assert [request for request in posted if isinstance(request, Try)] == [Try(ROW.name, None)]

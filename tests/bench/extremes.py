@@ -73,11 +73,12 @@ def _stroke(session: Session, at: tuple[int, int, int, str | None], rng: np.rand
     points = np.zeros((20, 6))
     points[:, :2] = np.cumsum(rng.uniform(-6, 6, (20, 2)), axis=0)
     points[:, 2] = rng.uniform(0.4, 1.0, 20)
-    collecting.pass_over()  # as the window's engine does
     live = session.begin(level, (x, y), BRUSH, layer)
     for first in range(0, len(points), AT_ONCE):
         live.add(points[first : first + AT_ONCE])
     session.finish(live)
+    if collecting.due():  # as the window's engine does at rest
+        collecting.pass_over()
 
 
 if __name__ == "__main__":

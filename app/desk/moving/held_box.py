@@ -44,6 +44,8 @@ def wants(desk: Desk) -> None:
     """Posts what the tool lacks, or an action that waits."""
     want_sheets(desk)
     floating.watch(desk)
+    if not desk.behind():
+        desk.moving.answered(desk.post, desk.known)
     if desk.hand.tool == TOOL or desk.moving.waits is not None:
         row = desk.known.active
         selected = row is not None and floating.takes_part(desk, row)

@@ -90,12 +90,13 @@ class MoveState:
         if waits is not None:
             waits()
 
-    def refused(self, post: Callable[[Request], None], known: Known) -> None:
-        """Has what was set down seen where it is, as it cannot be where it was asked for; not while it is dragged."""
+    def answered(self, post: Callable[[Request], None], known: Known) -> None:
+        """All that was asked for is done or was refused: what was set down and is not there is seen where it is."""
         trial = self.trial
-        if trial is not None and trial.scene is known.scene and self.label is None:
+        if trial is not None and self.label is None:
             self.trial = None
-            post(Try(trial.name, None))
+            if trial.scene is known.scene:
+                post(Try(trial.name, None))
 
     def empty(self, known: Known, row: LayerRow, selected: bool) -> bool:
         """Tells whether it is known that nothing is painted on it now, or of what is `selected`."""

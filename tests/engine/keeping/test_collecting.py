@@ -13,8 +13,9 @@ from engine.painting.recording import Header
 from engine.painting.value import first_painting
 from engine.session.session import Session
 from engine.studio.easel import Easel
+from engine.studio.studio import Studio
 
-POINTS = np.array([[0.0, 0, 1, 0, 0, 0], [30, 9, 1, 0, 0, 0.1]])
+POINTS = np.zeros((0, 6))
 YOUNG = 40_000  # objects, more than are looked at before they are passed over
 
 
@@ -56,41 +57,42 @@ def test_a_cycle_among_what_is_new_is_found_before_that():
     assert there() is None
 
 
-def test_little_that_is_new_is_not_looked_through():
-    collecting.pass_over()
-    assert gc.get_freeze_count() == 0
+def test_little_that_is_new_is_not_worth_a_look():
+    assert not collecting.due()
 
 
-def test_where_nothing_is_to_be_looked_for_nothing_is():
+def test_it_is_never_due_where_nothing_is_to_be_looked_for():
     held = _grow_old()
+    assert collecting.due()
     gc.disable()
     try:
-        collecting.pass_over()
-        assert gc.get_freeze_count() == 0, len(held)
+        assert not collecting.due(), len(held)
     finally:
         gc.enable()
 
 
-@pytest.mark.parametrize(
-    "next_thing",
-    [
-        lambda easel: easel.begin(c.Stroke(0, (0, 0), POINTS[:0], Brush(radius=4))),
-        lambda easel: easel.carry_out(c.AddLayer("Another")),
-    ],
-)
-def test_a_stroke_and_a_command_begin_with_it(next_thing):
-    easel = Easel(lambda result: None)
+def test_the_engine_does_so_at_rest_and_never_within_a_stroke():
+    studio = Studio(lambda result: None, lambda request: None)
+    while studio.step():
+        pass
+    collecting.look_anew()
+    studio.easel.begin(c.Stroke(0, (0, 0), POINTS, Brush(radius=4)))
     held = _grow_old()
-    next_thing(easel)
+    while studio.step():
+        pass
+    assert gc.get_freeze_count() == 0
+    studio.easel.abandon()
+    while studio.step():
+        pass
     assert gc.get_freeze_count() > len(held)
+    assert not studio.pending
 
 
 def test_another_painting_has_all_looked_at_anew():
     easel = Easel(lambda result: None)
-    held = _grow_old()
-    easel.carry_out(c.AddLayer("Another"))
+    _grow_old()
+    collecting.pass_over()
     there = weakref.ref(easel.session)
-    del held
     easel.session.itself = easel.session
     easel.show(Session(first_painting(Header())), None)
     gc.collect()

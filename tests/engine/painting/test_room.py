@@ -93,31 +93,25 @@ def test_old_steps_are_all_coded_and_put_away_where_the_process_takes_too_much(p
     assert not history.tight
 
 
+def gives_back_at_rest(room, process, used, free):
+    process.used, process.free = used, free
+    room.keep_within(Painting().root)
+    return bool(room.pending)
+
+
 def test_what_came_and_went_is_given_back_at_rest_however_little_is_taken(process):
     room = Room(TileCache(MEGABYTE), History())
-    process.used = 10
-    room.keep_within(Painting().root)
-    assert not room.pending
-    process.used, process.free = 30, 60
-    room.keep_within(Painting().root)
-    assert room.pending
+    assert not gives_back_at_rest(room, process, 10, 0)
+    assert gives_back_at_rest(room, process, 30, 60)
     room.step()
     assert not room.pending
     assert (process.used, process.free) == (30, 0)
-    process.used, process.free = 20, 20
-    room.keep_within(Painting().root)
-    assert not room.pending
-    process.free = 80
-    room.keep_within(Painting().root)
-    assert room.pending
+    assert not gives_back_at_rest(room, process, 20, 20)
+    assert gives_back_at_rest(room, process, 20, 80)
 
 
 def test_the_more_is_taken_the_more_may_be_free_before_it_is_given_back(process):
     room = Room(TileCache(MEGABYTE), History())
     room._settled = 1600 * MEGABYTE
-    process.used, process.free = 1600, 90
-    room.keep_within(Painting().root)
-    assert not room.pending
-    process.free = 110
-    room.keep_within(Painting().root)
-    assert room.pending
+    assert not gives_back_at_rest(room, process, 1600, 90)
+    assert gives_back_at_rest(room, process, 1600, 110)
