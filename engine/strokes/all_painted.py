@@ -21,7 +21,7 @@ _CACHE = 64 << 20
 def all_painted(pyramid: Pyramid, level: int, cache: TileCache | None) -> Coverage:
     """Returns the tiles of a level on which there is paint, covered in full.  Refusal if there is none, or too much."""
     last: set[TileKey] = set()
-    for level_there, last in _descent(pyramid, level, cache):
+    for level_there, last in _descent(pyramid, level, cache, MOST_FILLED):
         if len(last) > MOST_FILLED:
             raise Refusal(f"fill: found paint on more than {MOST_FILLED} tiles of level {level_there}, expected fewer")
     if not last:
@@ -33,15 +33,16 @@ def level_for_all(pyramid: Pyramid, cache: TileCache | None) -> int:
     """Returns the level to fill a whole layer at: the finest at which anything is stored, or a coarser one where that
     would take long."""
     finest, best = pyramid.finest, 0 if pyramid.coarsest is None else pyramid.coarsest
-    for level, tiles in () if finest is None else _descent(pyramid, finest, cache):
+    for level, tiles in () if finest is None else _descent(pyramid, finest, cache, _AT_ONCE):
         if len(tiles) > _AT_ONCE:
             break
         best = level
     return best
 
 
-def _descent(pyramid: Pyramid, level: int, cache: TileCache | None) -> Iterator[tuple[int, set[TileKey]]]:
-    """Yields the tiles on which there is paint, of each level from the coarsest that is stored, or wanted, on."""
+def _descent(pyramid: Pyramid, level: int, cache: TileCache | None, most: int) -> Iterator[tuple[int, set[TileKey]]]:
+    """Yields the tiles on which there is paint, of each level from the coarsest that is stored, or wanted, on; not all
+    of one with more than `most`."""
     own = TileCache(_CACHE) if cache is None else cache
     start = pyramid.coarsest
 
@@ -51,4 +52,4 @@ def _descent(pyramid: Pyramid, level: int, cache: TileCache | None) -> Iterator[
 
     if start is None:
         return
-    yield from filled_levels(lambda k: pyramid.levels.get(k, ()), filled, min(start, level), level)
+    yield from filled_levels(lambda k: pyramid.levels.get(k, ()), filled, min(start, level), level, most)

@@ -11,7 +11,7 @@ from engine.canvas.commit import commit
 from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.node_checks import LayerError
 from engine.canvas.painted import tile_bounds
-from engine.canvas.placing.filled import filled_tiles
+from engine.canvas.placing.filled import filled_levels, filled_tiles, may_lead_to
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
@@ -21,6 +21,7 @@ from engine.texture.planes import COLOURS, Planes
 
 _HELD_BYTES = 256 << 20
 _MOST_CLEARED = 1 << 16  # tiles
+_MOST_WALKED = 1 << 10  # tiles of a selection up to which it is worth knowing where it ends
 _NO_PAINT = np.zeros((COLOURS, TILE, TILE), np.float32)
 
 
@@ -80,8 +81,11 @@ def without(paint: Pyramid, taken: Selection | Outside) -> Pyramid:
         if isinstance(taken, Selection) and taken.inverse:
             return Pyramid(grid=paint.grid, commits=paint.commits)
     level, cache = max(level, paint.coarsest), TileCache(_HELD_BYTES)
+    bounds = _bounds(taken, level, cache)
 
     def filled(key: TileKey) -> bool:
+        if bounds is not None and not may_lead_to(key, level, bounds):
+            return False
         found = evaluate_sparse(paint, key.level, key.rect, cache)
         return found is not None and bool(found.data.any())
 
@@ -90,6 +94,21 @@ def without(paint: Pyramid, taken: Selection | Outside) -> Pyramid:
     if len(met) > _MOST_CLEARED:
         raise LayerError(f"layer: found more than {_MOST_CLEARED} tiles to clear, expected fewer")
     return commit(paint, _Clearing(level, met, taken)) if met else paint
+
+
+def _bounds(taken: Selection | Outside, level: int, cache: TileCache) -> Rect | None:
+    """Returns tiles of a level around all that is taken; None where that has no end, or lies on many."""
+    if isinstance(taken, Outside) or taken.inverse or taken.pyramid.coarsest is None:
+        return None
+    chosen, start, found = taken.pyramid, taken.pyramid.coarsest, set[TileKey]()
+
+    def filled(key: TileKey) -> bool:
+        return _meets(taken, key, cache)
+
+    for _, found in filled_levels(lambda k: chosen.levels.get(k, ()), filled, start, level, _MOST_WALKED):
+        if len(found) > _MOST_WALKED:
+            return None
+    return tile_bounds(found)
 
 
 def _meets(taken: Selection | Outside, key: TileKey, cache: TileCache) -> bool:

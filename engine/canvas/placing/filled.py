@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from itertools import islice
 
-from engine.numeric.address import TileKey
+from engine.numeric.address import TILE, Rect, TileKey
 
 TilePlace = tuple[int, int]
 
@@ -21,14 +22,27 @@ def filled_tiles(
 
 
 def filled_levels(
-    stored: Callable[[int], Iterable[TilePlace]], filled: Callable[[TileKey], bool], coarsest: int, level: int
+    stored: Callable[[int], Iterable[TilePlace]],
+    filled: Callable[[TileKey], bool],
+    coarsest: int,
+    level: int,
+    most: int | None = None,
 ) -> Iterator[tuple[int, set[TileKey]]]:
-    """Yields the levels on the way, each with its tiles that are filled."""
+    """Yields the levels on the way, each with its tiles that are filled; of one with more than `most`, so many and one
+    more."""
     known: set[TilePlace] = set()
     for k in range(coarsest, level + 1):
         near = {*_children(known), *stored(k)}
-        known = {place for place in near if filled(TileKey(k, *place))}
+        known = set(islice((place for place in near if filled(TileKey(k, *place))), None if most is None else most + 1))
         yield k, {TileKey(k, *place) for place in known}
+
+
+def may_lead_to(key: TileKey, level: int, bounds: Rect) -> bool:
+    """Tells whether the way from a tile to those of a finer level may lead into `bounds` of that: each tile sees its
+    own four of the next level and those around."""
+    finer = level - key.level
+    reached = Rect(TILE * (key.x - 1), TILE * (key.y - 1), TILE * (key.x + 2), TILE * (key.y + 2)).zoomed(finer)
+    return not reached.intersect(bounds).empty
 
 
 def _children(places: Iterable[TilePlace]) -> Iterator[TilePlace]:

@@ -96,11 +96,10 @@ def test_an_exact_placement_shows_the_sources_very_pixels(pose, level, name):
     window = Rect(pose.at[0] - 40, pose.at[1] - 30, pose.at[0] + 50, pose.at[1] + 40)
     shown = picture(only(placed(name, pose)), level, window)
     at_level = level + pose.levels
-    places = [
-        source_pixel(pose, level, at_level, x, y)
-        for y in range(window.y0, window.y1)
-        for x in range(window.x0, window.x1)
-    ]
+    # Each coordinate of the source follows from one of the window's.
+    row = [source_pixel(pose, level, at_level, x, window.y0) for x in range(window.x0, window.x1)]
+    column = [source_pixel(pose, level, at_level, window.x0, y) for y in range(window.y0, window.y1)]
+    places = [(across[0] + down[0] - row[0][0], across[1] + down[1] - row[0][1]) for down in column for across in row]
     xs, ys = [x for x, _ in places], [y for _, y in places]
     box = Rect(min(xs), min(ys), max(xs) + 1, max(ys) + 1)
     alone = replace(EMPTY, children=(replace(node(name), opacity=1.0, visible=True),))
