@@ -214,15 +214,16 @@ class _Showing:
                 level -= 1
             return level
         fits = self.first
-        for k, tiles, _ in self._levels(self.finest):
+        for k, tiles, _ in self._levels(self.finest, _MOST_CHOSEN):
             if len(tiles) > _MOST_CHOSEN:
                 break
             fits = k
         return fits
 
-    def _levels(self, level: int) -> Iterator[tuple[int, set[TileKey], float]]:
+    def _levels(self, level: int, most: int | None = None) -> Iterator[tuple[int, set[TileKey], float]]:
         """Yields the levels on the way to one, each with its tiles that hold paint, and how many full ones that paint
-        would make: a coarse pixel is the mean of finer ones, so that it is four times as many at the next level."""
+        would make: a coarse pixel is the mean of finer ones, so that it is four times as many at the next level.  Of
+        more tiles than `most` not all are looked at."""
         alpha = [0.0]
 
         def filled(key: TileKey) -> bool:
@@ -230,7 +231,7 @@ class _Showing:
             alpha[0] += float(picture[3][picture[3] > _WEAK].sum())
             return bool(picture.any())
 
-        for k, tiles in filled_levels(stored_tiles(self.ways), filled, self.first, level):
+        for k, tiles in filled_levels(stored_tiles(self.ways), filled, self.first, level, most):
             yield k, tiles, alpha[0] / TILE**2
             alpha[0] = 0.0
 
