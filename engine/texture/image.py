@@ -24,7 +24,8 @@ from engine.texture.raster import AT_ONCE, planes_of, row_bands, straight_of
 _STRIP = 64  # narrower images are repeated to this width before they are laid out
 _KEPT = 8  # pyramids held in memory
 _WHOLE = 16  # a picture enlarged beyond so many times its pixels is made piece by piece
-_NARROW = 1 << 20  # pixels from which on a picture is held in as few bits as tell it
+_NARROW = 1 << 12  # pixels from which on a picture is held in as few bits as tell it
+_BANDED = 1 << 20  # and read and resampled part by part
 _LARGE = 1 << 26  # pixels of a picture beyond which, as a texture, it is refined no further than to so many
 _HELD: WeakValueDictionary[str, np.ndarray | Raster] = WeakValueDictionary()  # the pixels of pictures, by their hash
 
@@ -54,7 +55,7 @@ class ImageSource:
     def of_raster(cls, name: str, pixels: Raster) -> ImageSource:
         """Makes the source of straight RGBA, uint8 or uint16 (h, w, 4), as `put_plainly` leaves it."""
         height, width, _ = pixels.shape
-        if height * width < _NARROW:
+        if height * width < _BANDED:
             return cls.of(name, planes_of(pixels[0:height, 0:width]))
         return cls(name, "", pixels)._hashed()
 
@@ -128,7 +129,8 @@ def _is_planes(pixels: np.ndarray | Raster) -> TypeGuard[np.ndarray]:
 
 
 def narrowed(data: np.ndarray) -> np.ndarray:
-    """Returns planes, float32 (4, h, w), as the pixels of 8 or 16 bits that tell them, if they are many and some do."""
+    """Returns planes, float32 (4, h, w), as the pixels of 8 or 16 bits that tell them, where some do and there
+    are not few."""
     found = straight_of(data) if data[0].size >= _NARROW else None
     return data if found is None else found
 
@@ -265,7 +267,7 @@ def stretched(source: ImageSource, size: tuple[int, int], rows: np.ndarray, colu
     """Some pixels of a picture resampled to `size` (h, w): premultiplied RGBA that is valid, on the grid."""
     out = np.empty((4, rows.size, columns.size), np.float32)
     old = source.height, source.width
-    count = rows.size if old[0] * old[1] < _NARROW else max(1, int(AT_ONCE / old[1] / max(1.0, old[0] / size[0])))
+    count = rows.size if old[0] * old[1] < _BANDED else max(1, int(AT_ONCE / old[1] / max(1.0, old[0] / size[0])))
     for top in range(0, rows.size, count):
         part = out[:, top : top + count]
         part[:] = resampled_rows(source.rows, old, size, rows[top : top + count], columns)

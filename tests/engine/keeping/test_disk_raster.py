@@ -79,6 +79,7 @@ def put_away(patch):
     """Has every picture put away, and every level of it."""
     patch.setattr(disk_raster, "_PART", 1 << 60)
     patch.setattr(image, "_NARROW", 1)
+    patch.setattr(image, "_BANDED", 1)
     patch.setattr(image, "_HELD", {})
     patch.setattr(ground, "_DENSE", 64)
     patch.setattr("engine.archive.grounds.LAID", 64)

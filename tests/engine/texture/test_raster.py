@@ -65,6 +65,7 @@ def test_a_picture_in_fewer_bits_is_the_same_source(seed, kind, height, width):
     size, rows, columns = (height, width), np.arange(-3, height + 4), np.arange(-5, width)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(image, "_NARROW", 1)
+        patch.setattr(image, "_BANDED", 1)
         patch.setattr(image, "AT_ONCE", 17)
         patch.setattr(raster, "AT_ONCE", 25)
         patch.setattr(image, "_HELD", {})
@@ -89,3 +90,14 @@ def test_a_picture_too_large_for_a_texture_is_refined_as_far_as_that_may_be_larg
     assert Image(0, 8, source).refinements == 2
     wide = Image(0, 64, source).appearance(0, Rect(0, 0, 64, 64))
     assert np.array_equal(wide, source.data)
+
+
+@pytest.mark.parametrize(("kind", "taken"), [(np.uint8, 4), (np.uint16, 8)])
+def test_a_small_picture_takes_what_its_file_does_and_tells_the_same(kind, taken):
+    most = np.iinfo(kind).max
+    pixels = np.random.default_rng(3).integers(0, most, (90, 120, 4), kind, endpoint=True)
+    pixels[..., 3] = most
+    plain = planes_of(pixels)
+    source = ImageSource.of("a", plain)
+    assert source.pixels.nbytes == taken * 90 * 120
+    np.testing.assert_array_equal(source.planes(source.whole).view(np.uint32), plain.view(np.uint32))
