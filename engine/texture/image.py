@@ -25,7 +25,7 @@ _STRIP = 64  # narrower images are repeated to this width before they are laid o
 _KEPT = 8  # pyramids held in memory
 _WHOLE = 16  # a picture enlarged beyond so many times its pixels is made piece by piece
 _NARROW = 1 << 12  # pixels from which on a picture is held in as few bits as tell it
-_BANDED = 1 << 20  # and read and resampled part by part
+_BANDED = 1 << 20  # pixels from which on a picture is read and resampled part by part
 _LARGE = 1 << 26  # pixels of a picture beyond which, as a texture, it is refined no further than to so many
 _HELD: WeakValueDictionary[str, np.ndarray | Raster] = WeakValueDictionary()  # the pixels of pictures, by their hash
 

@@ -3,7 +3,7 @@
 from unittest import mock
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from engine.canvas.evaluate import evaluate
@@ -13,7 +13,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.session.session import Session
 
-SIDES = st.integers(1, 90)
+SIDES = st.integers(1, 300)
 PLACES = st.tuples(st.integers(-200, 200), st.integers(-200, 200))
 STROKES = st.lists(st.tuples(st.integers(0, 2), PLACES, st.integers(2, 20)), min_size=1, max_size=3)
 
@@ -35,6 +35,8 @@ def selected(level, at, size, inverse):
 
 @settings(deadline=None, max_examples=15)
 @given(STROKES, st.integers(0, 2), PLACES, st.tuples(SIDES, SIDES), st.booleans())
+@example([(0, (118, 64), 10)], 2, (512, 240), (80, 32), False)  # what spreads over a tile's edge below the stroke
+@example([(0, (100, 20), 20), (0, (600, 20), 20)], 2, (300, 20), (2500, 60), False)  # wider than any tile leads to
 def test_nothing_that_is_passed_over_would_have_changed(strokes, level, at, size, inverse):
     paint, chosen = painted(strokes), selected(level, at, size, inverse)
     found = cleared.without(paint, chosen)
