@@ -20,6 +20,7 @@ from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.points import plain, points_array
 
 WIDEST_GAP = 1024  # px
+WIDEST_GROWN = 256.0  # px
 LOOKED_AT_CAP = 1 << 24  # pixels in which a region is looked for
 TOLERANCE = 0.1
 REGIONS = "alike", "empty", "all", "line"  # within a line, that are meant
@@ -64,7 +65,7 @@ class Like:
 class Fill:
     """Fills a region, or (without `like`) what is selected, or the `whole` layer where it has paint, at `level`, with a
     brush, on a layer (None: the active one), or `onto` its mask.  `open`: even if the region reaches the border of
-    where it is looked for."""
+    where it is looked for.  `grow`: pixels by which the region of `like` goes beyond its rim."""
 
     brush: Brush
     like: Like | None = None
@@ -74,6 +75,7 @@ class Fill:
     extra: Map[str, Any] = _NOTHING
     onto: str = ONTO_PAINT
     whole: bool = False
+    grow: float = 0.0
 
 
 def place_of(fill: Fill) -> tuple[int, Rect | None]:
@@ -148,6 +150,9 @@ def read_fill(members: Fields) -> Fill:
     whole = members.flag("whole", False)
     if whole and like is not None:
         raise members.fault("whole", "false beside like")
+    grow = members.number("grow", 0.0, lo=0.0, hi=WIDEST_GROWN)
+    if grow and (like is None or like.within is not None):
+        raise members.fault("grow", "0 but beside like, without within")
     return Fill(
         settings.from_json(members.take("brush", {}), members.at("brush")),
         like,
@@ -156,6 +161,7 @@ def read_fill(members: Fields) -> Fill:
         members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT) if like is None else 0,
         onto=read_onto(members),
         whole=whole,
+        grow=grow,
         extra=members.rest(),
     )
 
@@ -175,4 +181,6 @@ def write_fill(fill: Fill) -> dict[str, Any]:
         out["whole"] = True
     if fill.onto:
         out["onto"] = fill.onto
+    if fill.grow:
+        out["grow"] = plain(fill.grow)
     return {**out, **thawed(fill.extra)}

@@ -22,6 +22,7 @@ from engine.canvas.layers import Layer
 from engine.canvas.selecting.limit import Limit
 from engine.canvas.selecting.mask_sheet import repainted
 from engine.canvas.selecting.occupied import alpha_at
+from engine.canvas.selecting.rims import rim_moved
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting.commands import Fill
@@ -86,7 +87,7 @@ def _region(painting: Painting, layer: Layer, command: Fill, cache: TileCache | 
         )
     if command.like is not None and command.like.within is None:
         region, limit = (
-            alike_around(painting, command.like, cell, cache),
+            _beyond(painting, command, alike_around(painting, command.like, cell, cache)),
             Limit.of(painting.selection, level, cache, layer.wrap),
         )
     else:
@@ -97,7 +98,7 @@ def _region(painting: Painting, layer: Layer, command: Fill, cache: TileCache | 
 def _plain_region(painting: Painting, command: Fill, cache: TileCache | None) -> tuple[Coverage, Limit | None]:
     """As `_region`, of a layer that does not wrap around."""
     if command.like is not None:
-        region = alike(painting, command.like, command.open, cache)
+        region = _beyond(painting, command, alike(painting, command.like, command.open, cache))
         return region, Limit.of(painting.selection, region.level, cache)
     if command.whole:
         if command.onto:
@@ -111,6 +112,11 @@ def _plain_region(painting: Painting, command: Fill, cache: TileCache | None) ->
     if selection.inverse:
         raise Refusal("fill: found a selection without bounds, expected one with bounds, or like")
     return alpha_at(selection.pyramid, command.level, "fill"), None
+
+
+def _beyond(painting: Painting, command: Fill, region: Coverage) -> Coverage:
+    """Returns a region, grown by as many pixels as the fill says: under the soft edges of lines."""
+    return rim_moved(region, command.grow, 0.0, painting.grid, "fill") if command.grow else region
 
 
 def opacity_of(brush: Brush) -> float:

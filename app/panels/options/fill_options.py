@@ -64,6 +64,9 @@ def _region(desk: Desk) -> None:
     ways(desk)
     likeness(desk)
     spaced()
+    state, hint = desk.filling, "Under soft lines, by so much: no pale ring is left at their edges"
+    state.poured = round(slid("Grow", state.poured, _MOST_GROWN, "%.0f px", hint))
+    spaced()
     desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
 
 

@@ -38,6 +38,7 @@ SAMPLES = {
         open=True,
         layer="sky",
         extra=MORE,
+        grow=2.5,
     ),
     c.AddLayer: c.AddLayer("cloud", group=None, to=0, extra=MORE),
     c.AddPicture: c.AddPicture("photo", "grit", 1, (5, -6)),

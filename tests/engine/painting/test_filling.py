@@ -310,3 +310,28 @@ def test_what_is_like_a_pixel_is_selected_as_it_would_be_filled():
     np.testing.assert_array_equal(seen(replayed(session)), seen(session.painting))
     with pytest.raises(Refusal, match=r"select\.like\.at"):
         session.do(c.parse({"do": "select", "like": {"at": [800, 60]}}))
+
+
+def test_a_fill_that_grows_goes_under_the_line_around_it_and_not_beyond_that():
+    y, x = np.mgrid[:120, :160] + 0.5
+    far = np.hypot(x - 80, y - 60)
+    changed = {}
+    for grow in (0, 2.5):
+        session = done(LINE)
+        before = seen(session.painting)
+        command = fill(brush=BRUSHES["colour"], grow=grow)
+        session.do(c.parse(command))
+        assert c.parse(c.to_json(c.parse(command))) == c.parse(command)
+        assert c.to_json(c.parse(command)).get("grow", 0) == grow
+        changed[grow] = (before != seen(session.painting)).any(axis=0)
+    assert far[changed[2.5]].max() > far[changed[0]].max() + 1
+    assert far[changed[2.5]].max() < 43.5
+
+
+WITHIN = {"within": [[0, 0], [9, 0], [0, 9]]}
+
+
+@pytest.mark.parametrize("members", [{"grow": -1}, {"grow": 257}, {"grow": 2, "like": WITHIN}])
+def test_a_fill_cannot_grow_by_less_or_more_or_beyond_a_line_of_its_own(members):
+    with pytest.raises(FieldError, match="grow"):
+        c.parse(fill(**members))
