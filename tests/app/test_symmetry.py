@@ -181,3 +181,8 @@ def test_a_save_after_steps_taken_back_stores_the_symmetry_of_the_hand(tmp_path)
     desk.learn(scene=replace(desk.known.scene, serial=1))
     desk.save(tmp_path / "a.ora", sure=True)
     assert posted[-1] == Save(tmp_path / "a.ora", sure=True)
+
+
+@pytest.mark.parametrize(("end", "way"), [((30, -40), "slanted"), ((100, 1), "level"), ((1, -100), "mirror")])
+def test_an_axis_is_called_by_its_angle(end, way):
+    assert symmetry.way_of(Guide("s", "symmetry", 0, (0, 0), ((0, 0), end), mirror=True)) == way

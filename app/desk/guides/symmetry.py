@@ -16,26 +16,28 @@ from engine.studio.requests import Do
 
 SYMMETRY = "Symmetry"
 MOST_PARTS = 24  # parts that the slider offers
+_SLANT = 0.01  # of an axis that counts as neither level nor upright
 _ARM = 160.0  # points of the screen from the centre to the point on the axis
 _NEAR = 1 << 28  # px: a centre farther from a stroke gives it no copies
 
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A row of the ways of symmetry: what a guide of that way has.  `across`: whether its axis lies level."""
+    """A row of the ways of symmetry: what a guide of that way has.  `axis`: the direction of its axis at first."""
 
     title: str
     hint: str
     mirror: bool
     counts: bool = False
-    across: bool = False
+    axis: tuple[float, float] = (0.0, -1.0)
     count: int = 1
 
 
 WAYS: dict[str, Way] = {
     "off": Way("Off", "Strokes are painted once", False),
     "mirror": Way("Mirror", "Left and right of an upright axis", True),
-    "level": Way("Mirror, level", "Above and below a level axis", True, across=True),
+    "level": Way("Mirror, level", "Above and below a level axis", True, axis=(1.0, 0.0)),
+    "slanted": Way("Mirror, slanted", "Across an axis of any angle", True, axis=(math.sqrt(0.5), -math.sqrt(0.5))),
     "both": Way("Both mirrors", "In all four corners", True, count=2),
     "radial": Way("Radial", "Turned about the centre", False, counts=True, count=6),
     "kaleidoscope": Way("Kaleidoscope", "Turned about the centre, and mirrored", True, counts=True, count=6),
@@ -48,17 +50,20 @@ def guide_of(desk: Desk) -> Guide | None:
 
 
 def way_of(guide: Guide | None) -> str:
-    """Returns which row of WAYS a guide is of; "" for one at another angle that is none."""
+    """Returns which row of WAYS a guide is of."""
     if guide is None or guide.off:
         return "off"
     if not guide.mirror:
         return "radial"
     if guide.count > 2:
         return "kaleidoscope"
-    (x0, y0), (x1, y1) = guide.points
     if guide.count == 2:
         return "both"
-    return "level" if abs(x1 - x0) > abs(y1 - y0) else "mirror"
+    (x0, y0), (x1, y1) = guide.points
+    across, down = abs(x1 - x0), abs(y1 - y0)
+    if min(across, down) > _SLANT * max(across, down):
+        return "slanted"
+    return "level" if across > down else "mirror"
 
 
 def set_symmetry(desk: Desk, guide: Guide) -> None:
@@ -102,7 +107,7 @@ def choose(desk: Desk, name: str) -> None:
     count = guide.count if guide is not None and way.counts and guide.count > 2 else way.count
     x, y = found.points[0]
     length = math.dist(*found.points)
-    end = (x + length, y) if way.across else (x, y - length)
+    end = (x + way.axis[0] * length, y + way.axis[1] * length)
     set_symmetry(desk, replace(found, points=((x, y), end), count=count, mirror=way.mirror, off=False))
 
 

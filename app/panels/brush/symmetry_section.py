@@ -9,6 +9,8 @@ from app.desk.desk import Desk
 from app.desk.guides import symmetry
 from app.panels.controls import widgets as w
 
+_MOVE = "Drag the axis: its middle moves it, its end turns it"
+
 
 class SymmetrySection:
     """`_count`: the parts while their slider is dragged."""
@@ -34,7 +36,7 @@ class SymmetrySection:
             if name != "guides":
                 imgui.same_line(0, spacing)
             on = name == "guides" and desk.hand.tool == "guides"
-            if w.lit_button(title, actions.tip(name), on, (width - spacing) / 2):
+            if w.lit_button(title, _MOVE if name == "guides" else actions.tip(name), on, (width - spacing) / 2):
                 actions.perform(desk, actions.ACTIONS[name])
 
     def _parts(self, desk: Desk, count: int) -> None:

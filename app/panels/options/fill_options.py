@@ -29,7 +29,7 @@ _WHICH = (
 )
 _ENDS = (("other", "Other colour", "It ends in the other colour"), ("nothing", "Transparent", "It fades to nothing"))
 _MOST_GROWN = 16.0  # px of the screen
-_WAYS, _SHAPES, _SLIDER = 12.0, 14.0, 7.0  # widths, ems
+_WAYS, _SHAPES, _SLIDER, _NARROW = 12.0, 14.0, 7.0, 5.4  # widths, ems
 
 
 def draw(desk: Desk) -> None:
@@ -47,13 +47,13 @@ def ways(desk: Desk) -> None:
 
 def spaced() -> None:
     """Goes on in the same line, for something else."""
-    imgui.same_line(0, 0.9 * imgui.get_font_size())
+    imgui.same_line(0, 0.65 * imgui.get_font_size())
 
 
-def slid(label: str, value: float, most: float, form: str, hint: str) -> float:
-    """Draws a slider from 0 on, as wide as those of this bar; returns its value."""
+def slid(label: str, value: float, most: float, form: str, hint: str, width: float = _SLIDER) -> float:
+    """Draws a slider from 0 on, as wide as those of this bar, or so many ems; returns its value."""
     imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(0, 0))
-    imgui.begin_child(f"{label} cell", ImVec2(_SLIDER * imgui.get_font_size(), imgui.get_frame_height()))
+    imgui.begin_child(f"{label} cell", ImVec2(width * imgui.get_font_size(), imgui.get_frame_height()))
     imgui.pop_style_var()
     _, value = w.slider(label, value, (0.0, most), hint, form=form)
     imgui.end_child()
@@ -65,7 +65,7 @@ def _region(desk: Desk) -> None:
     likeness(desk)
     spaced()
     state, hint = desk.filling, "Under soft lines, by so much: no pale ring is left at their edges"
-    state.poured = round(slid("Grow", state.poured, _MOST_GROWN, "%.0f px", hint))
+    state.poured = round(slid("Grow", state.poured, _MOST_GROWN, "%.0f px", hint, _NARROW))
     spaced()
     desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
 
