@@ -16,6 +16,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from immutables import Map
 
 from engine.canvas import growth as growths
 from engine.canvas import layers
@@ -24,6 +25,7 @@ from engine.canvas.store import Record
 from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.numeric.address import TileKey
+from engine.painting.places import NO_BOOKMARKS
 from engine.painting.value import Painting
 from engine.session.coding.coded_records import CodedData, decode
 from engine.session.coding.coded_tiles import decode_tile
@@ -99,7 +101,7 @@ class History(Owned):
                 decode(record)
         self._root = after.root
         _let_go(self._mixed, self._root, self.tight)
-        self._done.push(Undoable(before, after, *difference(before.root, after.root)))
+        self._done.push(Undoable(_stepped(before), _stepped(after), *difference(before.root, after.root)))
         self._forget()
         entries = self._done.entries  # none in a replay that keeps no step
         self._old.step((entries[0].step.before if entries else after).root)
@@ -195,6 +197,12 @@ class History(Owned):
         while cap and len(done) > self._keep and done.beyond > cap:
             done.forget()
             self.forgotten += 1
+
+
+def _stepped(painting: Painting) -> Painting:
+    """Returns what a step keeps of a painting: not what is no step and stays as it is when steps are crossed, above all
+    textures, whose pictures would be held for as long as the step is."""
+    return replace(painting, textures=Map(), bookmarks=NO_BOOKMARKS, copied=None)
 
 
 def _has(root: Group | None, key: TileKey, record: Record) -> bool:

@@ -19,6 +19,7 @@ from engine.numeric.grid import snapped
 from engine.numeric.parted import Raster
 from engine.numeric.pyramid import reduce
 from engine.numeric.resample import resampled_rows
+from engine.texture.lean_planes import LeanPlanes, lean_of
 from engine.texture.raster import AT_ONCE, planes_of, row_bands, straight_of
 
 _STRIP = 64  # narrower images are repeated to this width before they are laid out
@@ -27,20 +28,22 @@ _WHOLE = 16  # a picture enlarged beyond so many times its pixels is made piece 
 _NARROW = 1 << 12  # pixels from which on a picture is held in as few bits as tell it
 _BANDED = 1 << 20  # pixels from which on a picture is read and resampled part by part
 _LARGE = 1 << 26  # pixels of a picture beyond which, as a texture, it is refined no further than to so many
-_HELD: WeakValueDictionary[str, np.ndarray | Raster] = WeakValueDictionary()  # the pixels of pictures, by their hash
+
+Pixels = np.ndarray | Raster | LeanPlanes
+_HELD: WeakValueDictionary[str, Pixels] = WeakValueDictionary()  # the pixels of pictures, by their hash
 
 
 @dataclass(frozen=True, slots=True)
 class ImageSource:
-    """A picture: `pixels` its planes, float32 (4, h, w), premultiplied RGBA in 0..1, or a raster of 8 or 16 bits that
-    tells the same; None where only its name is known any more.
+    """A picture: `pixels` its planes, float32 (4, h, w), premultiplied RGBA in 0..1, or what tells the same in fewer
+    bits: a raster of 8 or 16, lean planes; None where only its name is known any more.
 
     Sources are equal when name and `sha` are: `sha` is the SHA-256 of the size and the planes, in hexadecimal.
     """
 
     name: str
     sha: str
-    pixels: np.ndarray | Raster | None = field(default=None, compare=False, repr=False)
+    pixels: Pixels | None = field(default=None, compare=False, repr=False)
 
     @classmethod
     def of(cls, name: str, data: np.ndarray) -> ImageSource:
@@ -86,6 +89,8 @@ class ImageSource:
         assert self.pixels is not None
         if _is_planes(self.pixels):
             return self.pixels[:, rect.y0 : rect.y1, rect.x0 : rect.x1]
+        if isinstance(self.pixels, LeanPlanes):
+            return self.pixels.planes(rect)
         return planes_of(self.pixels[rect.y0 : rect.y1, rect.x0 : rect.x1])
 
     def rows(self, places: np.ndarray) -> np.ndarray:
@@ -99,6 +104,8 @@ class ImageSource:
 
     def straight(self) -> Raster | None:
         """Returns the pixels of 8, else of 16 bits that tell all that there is; None where neither does."""
+        if isinstance(self.pixels, LeanPlanes):  # no raster tells them
+            return None
         if self.pixels is None or not _is_planes(self.pixels):
             return self.pixels
         return straight_of(self.pixels + np.float32(0.0))  # which makes -0 to 0
@@ -124,15 +131,17 @@ class ImageSource:
         return 0 if self.pixels is None else self.pixels.shape[1 if _is_planes(self.pixels) else 0]
 
 
-def _is_planes(pixels: np.ndarray | Raster) -> TypeGuard[np.ndarray]:
-    return pixels.dtype == np.float32
+def _is_planes(pixels: Pixels) -> TypeGuard[np.ndarray]:
+    return not isinstance(pixels, LeanPlanes) and pixels.dtype == np.float32
 
 
-def narrowed(data: np.ndarray) -> np.ndarray:
-    """Returns planes, float32 (4, h, w), as the pixels of 8 or 16 bits that tell them, where some do and there
-    are not few."""
-    found = straight_of(data) if data[0].size >= _NARROW else None
-    return data if found is None else found
+def narrowed(data: np.ndarray) -> np.ndarray | LeanPlanes:
+    """Returns planes, float32 (4, h, w), as the pixels of 8 or 16 bits that tell them, else as lean planes, where these
+    do and there are not few."""
+    if data[0].size < _NARROW:
+        return data
+    found = straight_of(data)
+    return (lean_of(data) or data) if found is None else found
 
 
 @lru_cache(maxsize=64)

@@ -4,13 +4,17 @@ import gc
 import sys
 from contextlib import closing
 from types import BuiltinFunctionType, FunctionType, ModuleType
+from weakref import ref
 
 import numpy as np
+from immutables import Map
 
 from engine.brush.settings import Brush
 from engine.keeping.spill import PLACE_OVERHEAD, Spill, Spilled
+from engine.painting.commands import CopyPaint, DefineTexture, Redo, Stroke, Undo
 from engine.session.coding import coded_records
 from engine.session.session import Session
+from engine.texture.image import ImageSource
 
 _SHARED = type, ModuleType, FunctionType, BuiltinFunctionType, Spill
 
@@ -62,3 +66,27 @@ def test_the_bytes_that_steps_hold_are_counted(monkeypatch, tmp_path):
             line.put_away()
         assert spill.held > 0
         assert 0.8 < part_counted(session) < 1.25
+
+
+POINTS = np.array([[30.0, 30, 1, 0, 0, 0], [60, 30, 1, 0, 0, 0]])
+
+
+def test_steps_do_not_hold_what_is_no_step():
+    """Pictures of textures that were defined anew, and what was copied."""
+    session, random = Session(), np.random.default_rng(4)
+    held = []
+    for _ in range(3):
+        planes = np.ones((4, 9, 9), np.float32)
+        planes[:3] = np.float32(1 / 256) * random.integers(0, 256, (9, 9))
+        source = ImageSource.of("grit", planes)
+        held.append(ref(source.pixels))
+        session.do(DefineTexture("grit", "image", Map(path="p", sha=source.sha)), source)
+        session.do(Stroke(0, (0, 0), POINTS, Brush(radius=4.0)))
+        session.do(CopyPaint(session.painting.active))
+        del planes, source
+    gc.collect()
+    assert [pixels() is None for pixels in held] == [True, True, False]
+    now = session.painting
+    session.do(Undo(3))
+    session.do(Redo(2))
+    assert (session.painting.textures, session.painting.copied) == (now.textures, now.copied)

@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
+from engine.makers.spectrum import spectrum_picture
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.texture import image, raster
 from engine.texture.image import Image, ImageSource, stretched
+from engine.texture.lean_planes import lean_of
 from engine.texture.raster import planes_of, put_plainly, straight_of
 
 SEEDS = st.integers(0, 1 << 32)
@@ -101,3 +104,40 @@ def test_a_small_picture_takes_what_its_file_does_and_tells_the_same(kind, taken
     source = ImageSource.of("a", plain)
     assert source.pixels.nbytes == taken * 90 * 120
     np.testing.assert_array_equal(source.planes(source.whole).view(np.uint32), plain.view(np.uint32))
+
+
+@settings(deadline=None)
+@given(
+    arrays(np.int32, st.tuples(st.just(4), st.integers(1, 4), st.integers(1, 5)), elements=st.integers(-9, 65540)),
+    st.booleans(),
+    st.sampled_from([0.0, 0.3, np.nan, -0.0]),
+)
+def test_lean_planes_are_those_that_they_are_of_or_none(steps, grey, other):
+    planes = (steps * np.float32(2**-16)).astype(np.float32)
+    if grey:
+        planes[:3] = planes[0]
+    if other or np.signbit(other):
+        planes[3, 0, 0] = other
+    lean = lean_of(planes)
+    told = (np.ptp(steps, axis=(1, 2))[: 1 if grey else 3] <= 65535).all() and np.ptp(steps[3]) <= 65535
+    if lean is None:
+        assert other or np.signbit(other) or not told
+        return
+    _, height, width = planes.shape
+    assert lean.shape == (height, width, 4)
+    part = Rect(width // 2, height // 2, width, height)
+    assert lean.planes(part).tobytes() == np.ascontiguousarray(planes[:, height // 2 :, width // 2 :]).tobytes()
+    assert not grey or lean.nbytes <= 4 * height * width
+
+
+@pytest.mark.parametrize(("channels", "taken"), [(1, 2), (3, 6)])
+def test_what_a_texture_is_made_into_takes_two_bytes_a_value(channels, taken):
+    made = np.random.default_rng(7).normal(size=(channels, 90, 120)).astype(np.float32) * np.float32(0.3)
+    made[:, 0, 0] = 0  # one half: no file of 16 bits tells it
+    planes = spectrum_picture(np.clip(made, -1, np.float32(0.999)))
+    source = ImageSource.of("moss", planes)
+    assert source.pixels.nbytes == taken * 90 * 120
+    assert source.data.tobytes() == planes.tobytes()
+    assert source.rows(np.array([3, 4, 80])).tobytes() == np.ascontiguousarray(planes[:, [3, 4, 80]]).tobytes()
+    assert source.straight() is None
+    assert straight_of(planes) is None
