@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from app.desk.colours import RGB, to_hex
 from app.desk.desk import Desk
 from app.desk.filling.fill_state import looked_at
-from app.desk.filling.pouring import may_fill, outruns, post_fill, pour, poured_beyond
+from app.desk.filling.pouring import grown_by, may_fill, outruns, post_fill, pour
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from app.tools.painting_gestures import refused
@@ -50,7 +50,7 @@ def _dropped(desk: Desk, brush: Brush, x: float, y: float) -> None:
     if refused(desk) or not may_fill(desk):
         return
     like = like_at(desk, x, y)
-    post_fill(desk, Fill(brush, like, outruns(desk, like), grow=poured_beyond(desk, like)))
+    post_fill(desk, Fill(brush, like, outruns(desk, like), grow=grown_by(desk, like)))
 
 
 def like_at(desk: Desk, x: float, y: float) -> Like:

@@ -46,7 +46,10 @@ class Painting:
     `arithmetic`: in which its pixels are worked out, that of its recording; `grid`: on which the values of its layers
     lie, by its bits, for as long as it lives; `selection`: what strokes are limited to, None for nothing in particular;
     `selections`: those kept by name; `guides`: what one draws by, by name; `copied`: what was copied last, to be
-    pasted, which is in no file."""
+    pasted, which is in no file.
+
+    The textures, the bookmarks and what was copied are beside the steps: they stay as they are when steps are taken
+    back, or done again."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
@@ -61,6 +64,10 @@ class Painting:
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
     begun: Beginning | None = None
     copied: Layer | None = None
+
+    def beside(self, other: Painting) -> Painting:
+        """Returns the painting with what another has beside the steps."""
+        return replace(self, textures=other.textures, bookmarks=other.bookmarks, copied=other.copied)
 
     def framed(self, frame: Rect) -> Painting:
         """Returns the same paint in another frame."""

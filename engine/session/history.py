@@ -16,7 +16,6 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from immutables import Map
 
 from engine.canvas import growth as growths
 from engine.canvas import layers
@@ -25,7 +24,6 @@ from engine.canvas.store import Record
 from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.numeric.address import TileKey
-from engine.painting.places import NO_BOOKMARKS
 from engine.painting.value import Painting
 from engine.session.coding.coded_records import CodedData, decode
 from engine.session.coding.coded_tiles import decode_tile
@@ -42,6 +40,7 @@ _TIGHT_PART = 4  # of the limit: what steps may hold while memory is tight
 _TIGHT_AT_ONCE = 4 << 20  # bytes of data that a step has coded then, beside its share
 _LOOKED_AT = 256  # records that wait to be made plain, at each step
 _TIGHT_STEPS = 8  # that are put away on disk with it
+_NOTHING = Painting()
 
 
 class HeldSteps(NamedTuple):
@@ -200,9 +199,9 @@ class History(Owned):
 
 
 def _stepped(painting: Painting) -> Painting:
-    """Returns what a step keeps of a painting: not what is no step and stays as it is when steps are crossed, above all
-    textures, whose pictures would be held for as long as the step is."""
-    return replace(painting, textures=Map(), bookmarks=NO_BOOKMARKS, copied=None)
+    """Returns what a step keeps of a painting: nothing beside the steps, or the pictures of textures would be held for
+    as long as it is."""
+    return painting.beside(_NOTHING)
 
 
 def _has(root: Group | None, key: TileKey, record: Record) -> bool:

@@ -188,8 +188,7 @@ class Session(Owned):
         kept = self.painting
         stays = kept.active is not None and layers.has(found.root, kept.active)
         active = kept.active if stays else found.active
-        found = replace(found, textures=kept.textures, bookmarks=kept.bookmarks, copied=kept.copied)
-        self.painting = replace(found, active=active)
+        self.painting = replace(found.beside(kept), active=active)
         self.state = object()
         self.log.append(command)
         self.heard(command, None)

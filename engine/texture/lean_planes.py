@@ -34,12 +34,9 @@ class LeanPlanes:
     def planes(self, rect: Rect) -> np.ndarray:
         """Returns the planes of a part: float32 (planes, h, w)."""
         rows, columns = slice(rect.y0, rect.y1), slice(rect.x0, rect.x1)
-        out = np.zeros((len(self.above), rect.height, rect.width), np.float32)
+        out = np.empty((len(self.above), rect.height, rect.width), np.float32)
         for plane, lowest, above in zip(out, self.lowest, self.above, strict=True):
-            if above is not None:
-                plane[...] = above[rows, columns]
-            plane += np.float32(lowest)
-            plane *= FINE_STEP
+            _put(plane, lowest, None if above is None else above[rows, columns])
         return out
 
 
@@ -53,14 +50,22 @@ def lean_of(planes: np.ndarray) -> LeanPlanes | None:
         if not (abs(low) <= _FAR and high - low <= _MOST):  # nor with a NaN among them
             return None
         found = None if low == high else (steps - np.float32(low)).astype(np.uint16)
+        _put(steps, int(low), found)
+        if not np.array_equal(steps.view(np.uint32), plane.view(np.uint32)):
+            return None
         same = (k for k, other in enumerate(lowest) if other == low and _equal(above[k], found))
         at = next(same, None)
         lowest.append(int(low))
         above.append(found if at is None else above[at])
     count, height, width = planes.shape
-    lean = LeanPlanes((height, width, count), tuple(lowest), tuple(above))
-    exact = np.array_equal(lean.planes(Rect(0, 0, width, height)).view(np.uint32), planes.view(np.uint32))
-    return lean if exact else None
+    return LeanPlanes((height, width, count), tuple(lowest), tuple(above))
+
+
+def _put(plane: np.ndarray, lowest: int, above: np.ndarray | None) -> None:
+    """Puts the values of a plane in their place."""
+    plane[...] = 0.0 if above is None else above
+    plane += np.float32(lowest)
+    plane *= FINE_STEP
 
 
 def _equal(one: np.ndarray | None, other: np.ndarray | None) -> bool:

@@ -15,17 +15,16 @@ WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
 @dataclass(slots=True)
 class FillState:
     """`tolerance`: 0..1; `gap`: px of the screen; `seen`: all that is seen is looked at, not the layer alone;
-    `grown`: px of the screen by which the wand goes under the soft rim of what it finds; `poured`: by which a fill
-    goes; `last`: what was asked for
-    last. Of what is gone round `boxed`: by a rectangle; `regions`: which of it, as `Like` has them. Of gradients
-    `shape`: its kind; `fades`: to nothing, not to the other colour; `gradient`: the one laid last; `named`: the
-    names of those that were asked for."""
+    `grown`: px of the screen by which the wand goes under the soft rim of what it finds; `fill_grown`: by which a
+    fill does; `last`: what was asked for last. Of what is gone round `boxed`: by a rectangle; `regions`: which of it,
+    as `Like` has them. Of gradients `shape`: its kind; `fades`: to nothing, not to the other colour; `gradient`: the
+    one laid last; `named`: the names of those that were asked for."""
 
     tolerance: float = 0.12
     gap: float = 0.0
     seen: bool = True
     grown: float = 1.0
-    poured: float = 0.0
+    fill_grown: float = 0.0
     contiguous: bool = True
     last: Fill | None = None
     boxed: bool = False

@@ -38,14 +38,14 @@ def pour(desk: Desk, like: Like | None, eraser: bool = False) -> None:
     if like is None:
         post_fill(desk, Fill(brush, level=level))
     else:
-        post_fill(desk, Fill(brush, like, outruns(desk, like), grow=poured_beyond(desk, like)))
+        post_fill(desk, Fill(brush, like, outruns(desk, like), grow=grown_by(desk, like)))
     if brush.row.lays_ink:
         desk.hand.remember()
 
 
-def poured_beyond(desk: Desk, like: Like) -> float:
+def grown_by(desk: Desk, like: Like) -> float:
     """Returns by how many pixels of its level a region is filled beyond its rim, as the panel says."""
-    return 0.0 if like.within is not None else round(desk.filling.poured / desk.view.scale(like.level), 2)
+    return 0.0 if like.within is not None else round(desk.filling.fill_grown / desk.view.scale(like.level), 2)
 
 
 def outruns(desk: Desk, like: Like) -> bool:

@@ -32,12 +32,12 @@ class SymmetrySection:
         if symmetry.WAYS[way].counts:
             self._parts(desk, guide.count)
         spacing = imgui.get_style().item_spacing.x
-        for name, title in (("guides", "Move axis"), ("symmetry_here", "Bring here")):
-            if name != "guides":
-                imgui.same_line(0, spacing)
-            on = name == "guides" and desk.hand.tool == "guides"
-            if w.lit_button(title, _MOVE if name == "guides" else actions.tip(name), on, (width - spacing) / 2):
-                actions.perform(desk, actions.ACTIONS[name])
+        half = (width - spacing) / 2
+        if w.lit_button("Move axis", _MOVE, desk.hand.tool == "guides", half):
+            actions.perform(desk, actions.ACTIONS["guides"])
+        imgui.same_line(0, spacing)
+        if w.lit_button("Bring here", actions.tip("symmetry_here"), False, half):
+            actions.perform(desk, actions.ACTIONS["symmetry_here"])
 
     def _parts(self, desk: Desk, count: int) -> None:
         """The slider of the parts; one step when it is let go."""

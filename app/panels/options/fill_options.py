@@ -65,7 +65,7 @@ def _region(desk: Desk) -> None:
     likeness(desk)
     spaced()
     state, hint = desk.filling, "Under soft lines, by so much: no pale ring is left at their edges"
-    state.poured = round(slid("Grow", state.poured, _MOST_GROWN, "%.0f px", hint, _NARROW))
+    state.fill_grown = round(slid("Grow", state.fill_grown, _MOST_GROWN, "%.0f px", hint, _NARROW))
     spaced()
     desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
 

@@ -116,3 +116,14 @@ def test_a_tile_without_whole_pixels_or_too_large_is_refused():
         painted(wrap(), fill((0, 0), level=-4))
     with pytest.raises(Refusal, match="zoom out"):
         painted(wrap(), fill((0, 0), level=6))
+
+
+def test_a_fill_that_grows_goes_under_lines_beyond_the_rim():
+    """Where the rim lies does not matter: both lines are moved onto it."""
+    right, down = 2 - 60, 1 - 100
+    lines = [{**line, "points": [[x + right, y + down, *rest] for x, y, *rest in line["points"]]} for line in LINES]
+    plain = own(painted(wrap(), *LINES, fill((90, 50))), CELL)
+    grown = own(painted(wrap(), *LINES, {**fill((90, 50)), "grow": 3}), CELL)
+    rolled = own(painted(wrap(), *lines, {**fill((90 + right, 50 + down)), "grow": 3}), CELL)
+    assert (grown != plain).any(axis=0).sum() > 500
+    np.testing.assert_array_equal(rolled, np.roll(grown, (down, right), (1, 2)))
