@@ -17,7 +17,7 @@ from engine.canvas.evaluate import add_texture, step
 from engine.canvas.front import Around, Patch, blank_marks
 from engine.canvas.rising import counting
 from engine.canvas.rising.spans import Marks
-from engine.canvas.store import Pyramid, Record
+from engine.canvas.store import Pyramid, Record, Since
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, merged, plane_map, widened
@@ -117,14 +117,22 @@ class _Renewed:
 def _record(pyramid: Pyramid, it: _Renewed) -> Record | _Told | None:
     """Returns the new record of a tile; `_SAME` if the one it has still holds."""
     stored = pyramid.levels.get(it.key.level)
-    old = stored.get((it.key.x, it.key.y)) if stored is not None else None
-    inks = merged(it.new.with_inks(()).inks, it.above.with_inks(()).inks)
-    if old is not None:
-        old = effective(pyramid, it.key, old)
-        sheets = old.sheets
-        if sheets is not None:
-            return _sparse_record(it, sheets)
-        inks = merged(inks, old.inks)
+    before = stored.get((it.key.x, it.key.y)) if stored is not None else None
+    if before is None:
+        return _dense_record(it, None)
+    old = effective(pyramid, it.key, before)
+    sheets = old.sheets
+    if sheets is not None:
+        return _sparse_record(it, sheets)
+    record = _dense_record(it, old)
+    if old is before and isinstance(record, Record):
+        record.came_from(Since.it(before, it.within(it.part), it.touched[1]))
+    return record
+
+
+def _dense_record(it: _Renewed, old: Record | None) -> Record | _Told | None:
+    """As `_record`, where few inks lie in the tile."""
+    inks = merged(it.new.with_inks(()).inks, it.above.with_inks(()).inks, () if old is None else old.inks)
     if len(inks) < MANY and not it.textured(inks) and (old is None or old.data.dtype == np.int16):
         record = _renewed(it, old, inks)
         if record is not _Told.LARGE:

@@ -12,6 +12,7 @@ Above the coarsest stored level v = 0.
 from __future__ import annotations
 
 import itertools
+import weakref
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import IO, Protocol
@@ -69,18 +70,38 @@ class Coded(Protocol):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class Since:
+    """Where a record may differ from the one whose place it took: `of` gives that one, while it is there.
+
+    `at`: a part of the tile, from its corner; `spans`, uint8 (h, 2): the columns of each of its rows, from its left
+    edge on, out of which both are the same.
+    """
+
+    of: Callable[[], Record | None]
+    at: Rect
+    spans: np.ndarray
+
+    @classmethod
+    def it(cls, record: Record, at: Rect, spans: np.ndarray) -> Since:
+        """Tells of a record, which need not stay for that."""
+        return cls(weakref.ref(record), at, spans.astype(np.uint8))
+
+
+@dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
 class Record:
     """The residual of one tile.
 
     `rect`: the part of the tile it covers, in pixels from the tile's corner; zero elsewhere.
     `held`: its `data`, or what they are made of; `inks`: the n instances of its ink planes.
     `depth`: how many commits the pyramid had when it was stored: later attenuations are still to be applied.
+    `since`: how it came from the record before, where that is known.
     """
 
     rect: Rect
     held: np.ndarray | Coded
     inks: tuple[Instance, ...]
     depth: int
+    since: Since | None = None
 
     @property
     def data(self) -> np.ndarray:
@@ -109,6 +130,11 @@ class Record:
     def exchange(self, held: np.ndarray | Coded) -> None:
         """Holds the same data in another form.  Other threads may read them meanwhile."""
         object.__setattr__(self, "held", held)
+
+    def came_from(self, since: Since | None) -> Record:
+        """Notes how it came from the record before, or forgets it; returns the record itself."""
+        object.__setattr__(self, "since", since)
+        return self
 
     @property
     def nbytes(self) -> int:

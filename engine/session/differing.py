@@ -4,7 +4,7 @@ the bytes that these take."""
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from immutables import Map
 
@@ -77,8 +77,9 @@ def _all_in_memory(stored: Level, beside: list[Level]) -> Iterator[tuple[TilePla
             yield from ((place, record) for place, record in page.held[1].items() if record is not None)
 
 
-def difference(old: Group, new: Group) -> tuple[int, int]:
-    """Returns bytes that only `old` holds, and bytes that only `new` holds, in whichever layer."""
+def difference(old: Group, new: Group, lessen: Callable[[Record, Record], None] | None = None) -> tuple[int, int]:
+    """Returns bytes that only `old` holds, and bytes that only `new` holds, in whichever layer.  `lessen`: makes a
+    record that only `old` holds smaller by the one that took its place, before it is counted."""
     before = {layer.id: layer for layer in layers.layers(old)}
     after = {layer.id: layer for layer in layers.layers(new)}
     in_old, in_new = _Holding(old), _Holding(new)
@@ -97,7 +98,10 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
             gained += in_old.lacks(b) if b is not None else 0
             continue
         for key, record, beside in _apart(a, b):
-            lost += 0 if in_new.holds(key, record) else _alone(record, beside)
+            if not in_new.holds(key, record):
+                if lessen is not None and record is not None and beside is not None:
+                    lessen(record, beside)
+                lost += _alone(record, beside)
             gained += 0 if in_old.holds(key, beside) else _alone(beside, record)
         lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
     return lost, gained

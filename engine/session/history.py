@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ from engine.numeric.address import TileKey
 from engine.painting.value import Painting
 from engine.session.coding.coded_records import CodedData, decode
 from engine.session.coding.coded_tiles import decode_tile
+from engine.session.coding.spanned import lessen
 from engine.session.differing import apart_records, apart_tiles, difference, lost_records
 from engine.session.held_pyramids import pyramids
 from engine.session.line import StepLine, Undoable, counted
@@ -35,7 +37,7 @@ from engine.texture.example.tiles import TilePlanes
 
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
 _AT_ONCE = 256 << 10  # bytes of data that are coded in one piece of work
-_SHARE = 2  # so many bytes are coded for each that a step brings, where nobody rested
+_SHARE = 2  # so many bytes are coded for each that a step brings, where nobody rested; but no fewer than `_AT_ONCE`
 _TIGHT_PART = 4  # of the limit: what steps may hold while memory is tight
 _TIGHT_AT_ONCE = 4 << 20  # bytes of data that a step has coded then, beside its share
 _LOOKED_AT = 256  # records that wait to be made plain, at each step
@@ -57,7 +59,8 @@ class History(Owned):
     are there already.  Steps beyond the newest are coded while nothing else is to be done (`pending`, `step`), and from
     half of the limit on each step has some of the others coded, too.  Near the limit they go to disk, and are forgotten
     only where that has no room.  `forgotten`: steps that were done and are not there any more;
-    `tight`: whether all are to be coded and put away on disk.
+    `tight`: whether all are to be coded and put away on disk; `lessens`: whether a new step keeps only what it
+    changed, where that is known.
     """
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
@@ -71,6 +74,7 @@ class History(Owned):
         self._old = OldCommits()
         self._root: Group | None = None  # the present, where it was another before
         self.forgotten, self.tight = 0, False
+        self.lessens = bytes_cap != 0  # nobody goes back to a replay's steps
 
     @property
     def held(self) -> int:
@@ -100,7 +104,8 @@ class History(Owned):
                 decode(record)
         self._root = after.root
         _let_go(self._mixed, self._root, self.tight)
-        self._done.push(Undoable(_stepped(before), _stepped(after), *difference(before.root, after.root)))
+        smaller = partial(lessen, self._done.ways) if self.lessens else None
+        self._done.push(Undoable(_stepped(before), _stepped(after), *difference(before.root, after.root, smaller)))
         self._forget()
         entries = self._done.entries  # none in a replay that keeps no step
         self._old.step((entries[0].step.before if entries else after).root)
@@ -188,7 +193,7 @@ class History(Owned):
         if self.tight and self.held > limit / _TIGHT_PART:
             done.press(_SHARE * done.entries[-1].held + _TIGHT_AT_ONCE, _TIGHT_STEPS)
         elif done.plain and self.held > limit / 2:
-            done.code(_SHARE * done.entries[-1].held)
+            done.code(max(_SHARE * done.entries[-1].held, _AT_ONCE))
         while done.plain and self.held > limit:
             done.code()
         while cap and done.in_memory and done.beyond > cap:

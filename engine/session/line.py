@@ -44,11 +44,11 @@ class StepLine:
     """The steps on one side of the present, the farthest first.  Of each, the far end is the painting that it leads to
     from the present; what that alone holds is coded, and put away on disk, from the farthest step on.
 
-    `undone`: they are those undone.
+    `undone`: they are those undone; `ways`: how their records are made of one another.
     """
 
     def __init__(self, undone: bool, steps: Iterable[Undoable]) -> None:
-        self._undone, self._ways = undone, Ways()
+        self._undone, self.ways = undone, Ways()
         self.entries = deque(StepEntry(step, _alone(step, self._undone)) for step in steps)
         self.held = sum(entry.held for entry in self.entries)
         self._coded = self._away = 0  # of them
@@ -90,7 +90,7 @@ class StepLine:
             self._coded -= entry.coded
             self._away = min(self._away, self._coded)
             self._begun = None
-            self._ways.forget()
+            self.ways.forget()
         return entry.step
 
     def forget(self) -> None:
@@ -106,7 +106,7 @@ class StepLine:
         """Forgets all steps."""
         self.entries.clear()
         self._begun = None
-        self._ways.forget()
+        self.ways.forget()
         self.held = self._coded = self._away = 0
 
     def code(self, size: float = math.inf) -> float:
@@ -156,7 +156,7 @@ class StepLine:
         for key, record, other in apart_records(far, near):
             if not any(pyramid.holds(key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
                 size = record.held.nbytes
-                saved = self._ways.encode(record, _ready(record, other, self._undone))
+                saved = self.ways.encode(record, _ready(record, other, self._undone))
                 self._take(entry, _saving(entry.step, saved, self._undone))
                 entry.records.append(record)
                 yield size

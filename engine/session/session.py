@@ -178,7 +178,7 @@ class Session(Owned):
         """
         by = number - self.steps.count
         self._history = self.room.history = history
-        self.leapt = True
+        history.lessens = self.leapt = True
         found = replace(found, active=self.steps.active_at(number))
         return self._arrive(found, c.Undo(-by) if by < 0 else c.Redo(by))
 

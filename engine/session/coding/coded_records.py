@@ -5,9 +5,11 @@ A record keeps its value and its identity; the data of a coded one are made when
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Protocol
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from isal import isal_zlib
@@ -63,6 +65,10 @@ class CodedData:
     def plain(self) -> np.ndarray | SparsePlanes:
         """Returns what the record held."""
         return self.made()
+
+    def smaller(self) -> CodedData | None:
+        """Returns the same in fewer bytes; None where there is no such form."""
+        return None
 
     def made(self) -> np.ndarray:
         """Returns the data, read-only."""
@@ -138,17 +144,25 @@ class Ways:
     """Codes records of a line of history, the farthest first, so that the ways to their data stay short."""
 
     def __init__(self) -> None:
-        self._behind: dict[Record, int] = {}  # records that one not coded yet is to be made before
+        # Of records, how many are made of them one by the next.
+        self._behind: WeakKeyDictionary[Record, int] = WeakKeyDictionary()
+
+    def lead(self, record: Record, other: Record) -> bool:
+        """Tells whether a record may be made of another one, and notes that it is from now on."""
+        ahead = list(_way(other))
+        behind = self._behind.get(record, 0)
+        if record in ahead or behind + len(ahead) > WAY - 1:
+            return False
+        for number, one in enumerate(ahead, behind + 1):
+            self._behind[one] = max(self._behind.get(one, 0), number)
+        return True
 
     def encode(self, record: Record, other: Record | None) -> int:
         """Makes a record smaller; `other`: the one that took its place, None for none.  Returns the bytes that it takes
         less."""
-        behind = self._behind.pop(record, 0)
-        if other is not None and (behind >= WAY - 1 or leads_to(other, record)):
-            other = None
-        saved = encode(record, other)
-        if saved and other is not None:
-            self._behind[other] = max(self._behind.get(other, 0), behind + 1)
+        coded = isinstance(record.held, CodedData)
+        saved = encode(record, other if other is None or coded or self.lead(record, other) else None)
+        self._behind.pop(record, None)
         return saved
 
     def forget(self) -> None:
@@ -160,6 +174,12 @@ def encode(record: Record, other: Record | None) -> int:
     """Makes a record smaller; `other`: the one that took its place, None for none.  Returns the bytes that it takes
     less than before, and would not share with the other: 0 if it is coded already, or not worth it."""
     held = record.held
+    if isinstance(held, CodedData):
+        smaller = held.smaller()
+        if smaller is None:
+            return 0
+        record.exchange(smaller)
+        return held.nbytes - smaller.nbytes
     if not isinstance(held, np.ndarray | SparsePlanes):
         return 0
     if other is not None and leads_to(other, record):
@@ -303,7 +323,12 @@ def _predicted(
 
 def leads_to(other: Record, record: Record) -> bool:
     """Tells whether another record's data are made from this one's."""
-    here: Record | None = other
-    while here is not None and here is not record:
+    return record in _way(other)
+
+
+def _way(record: Record) -> Iterator[Record]:
+    """Yields a record and those of which it is made, one by the next."""
+    here: Record | None = record
+    while here is not None:
+        yield here
         here = here.held.other if isinstance(here.held, CodedData) else None
-    return here is record

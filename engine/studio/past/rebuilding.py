@@ -78,6 +78,7 @@ class Rebuilding:
         self._begun = self.at
         reach = undo_reach(self._log[self.at : count], STEPS)
         history = History(memory.history_share() // 4 if held is None else held, max(reach, 1))
+        history.lessens = False  # what is kept of its states stands by itself, and is counted so
         cache = TileCache(min(_CACHE_BYTES, memory.cache_share()))
         self.session = Session(painting, cache, folder=of.folder, history=history)
         self._steps, self._since = 0, time.monotonic()

@@ -1,0 +1,89 @@
+"""Records of the state before a commit: their values where the commit changed them, and else those that came after.
+
+A commit knows where it changed a record.  So what is kept for undo need not be the whole tile until somebody rests.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from isal import isal_zlib
+
+from engine.canvas.rising import span_values
+from engine.canvas.store import Record, Since
+from engine.session.coding.coded_records import CodedData, Ways, joined_bytes, split_bytes
+
+_LESS = 2  # a record's own bytes are such a multiple of what is kept of it, at least: else it stays whole
+_SMALL = 64  # bytes that are not worth it to be compressed
+_ROW = 2  # bytes of a row's span
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SpannedData(CodedData):
+    """The data of a record: in some columns of its `rows` rows from `top` on its own, and else those of `other`.
+
+    `packed`: of each of these rows the first column and the one behind the last, a byte each, and then the values that
+    lie there (`span_values.gather`); `deflated`, the low bytes of these before the high ones, or as they are.
+    """
+
+    top: int
+    rows: int
+    deflated: bool
+
+    def smaller(self) -> CodedData | None:
+        """Returns the same in fewer bytes; None where there is no such form."""
+        raw = self.packed
+        if self.deflated or not isinstance(raw, bytes) or len(raw) < _SMALL:
+            return None
+        spans, values = raw[: _ROW * self.rows], np.frombuffer(raw, self.dtype, offset=_ROW * self.rows)
+        packed = isal_zlib.compress(spans + split_bytes(values).tobytes(), 1)
+        return replace(self, packed=packed, deflated=True) if len(packed) < len(raw) else None
+
+    def _added(self, out: np.ndarray) -> np.ndarray:
+        """Puts what is the record's own in its place."""
+        packed = self.packed if isinstance(self.packed, bytes) else self.packed.read()
+        raw = np.frombuffer(isal_zlib.decompress(packed) if self.deflated else packed, np.uint8)
+        spans, told = raw[: _ROW * self.rows].reshape(-1, _ROW).astype(np.int32), raw[_ROW * self.rows :]
+        if self.deflated:
+            values = joined_bytes(told.reshape(self.dtype.itemsize, -1), self.dtype)
+        else:
+            values = told.view(self.dtype).copy()
+        span_values.scatter(values, spans, out, self.top)
+        return out
+
+
+def lessen(ways: Ways, record: Record, other: Record) -> None:
+    """Keeps of a record no more than where `other`, which took its place now, differs: that is known now, and noted no
+    longer."""
+    coded = spanned(record, other)
+    if coded is not None and ways.lead(record, other):
+        record.exchange(coded)
+    other.came_from(None)
+
+
+def spanned(record: Record, other: Record) -> SpannedData | None:
+    """Returns what a record holds by what `other`, which took its place, holds; None where that is not known to differ
+    in few places, or the record is coded."""
+    since, data = other.since, record.held
+    if since is None or since.of() is not record or not isinstance(data, np.ndarray):
+        return None
+    top, spans = _within(since, record)
+    count = int((spans[:, 1] - spans[:, 0]).sum())
+    if (count * len(data) * data.itemsize + _ROW * len(spans)) * _LESS > data.nbytes:
+        return None
+    values = np.empty(count * len(data), data.dtype)
+    span_values.gather(data, top, spans, values)
+    packed = spans.astype(np.uint8).tobytes() + values.tobytes()
+    return SpannedData(record.rect, record.inks, data.dtype, other, 0, packed, top, len(spans), False)
+
+
+def _within(since: Since, record: Record) -> tuple[int, np.ndarray]:
+    """Returns the first row of a record's data that changed, and of the rows from there on the columns: int32 (h, 2),
+    (0, 0) for none."""
+    at, rect = since.at, record.rect
+    first, last = max(at.y0, rect.y0), min(at.y1, rect.y1)
+    spans = since.spans[max(first - at.y0, 0) : max(last - at.y0, 0)].astype(np.int32) + np.int32(at.x0 - rect.x0)
+    np.clip(spans, 0, rect.width, out=spans)
+    spans[spans[:, 0] >= spans[:, 1]] = 0
+    return first - rect.y0, spans
