@@ -132,6 +132,24 @@ def _moves(by: int) -> Callable[[Desk], None]:
     return do
 
 
+def _show_only(desk: Desk) -> None:
+    desk.stack.toggle(desk.post, active(desk))
+
+
+def _show_all(desk: Desk) -> None:
+    if desk.stack.only is not None:
+        desk.stack.toggle(desk.post, desk.stack.only)
+
+
+def _sees_one(desk: Desk) -> bool:
+    return desk.stack.only is not None
+
+
+def _is_shown_only(desk: Desk) -> bool:
+    row = desk.known.active
+    return row is not None and desk.stack.only == row.name
+
+
 _NUDGE = "Move the layer by a pixel of what you see"
 LAYER_ACTIONS: dict[str, A] = {
     "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add("layer", "Layer"), ready),
@@ -167,6 +185,11 @@ LAYER_ACTIONS: dict[str, A] = {
         "Erode…", "Layer", (), "Let rain cut gullies into the land in view",
         lambda desk: desk.asked.show("erode"), _has_land,
     ),
+    "show_only": A(
+        "Show only this", "Layer", (), "Look at the layer alone; the painting stays what it is", _show_only, chosen,
+        _is_shown_only,
+    ),
+    "show_all": A("Show all", "Layer", (), "Look at the whole painting again", _show_all, _sees_one),
     "raise": A("Move up", "Layer/Move", ("Ctrl+PageUp",), "Move the layer up", _moves(1), chosen),
     "lower": A("Move down", "Layer/Move", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), chosen),
     "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer", _remove, chosen),

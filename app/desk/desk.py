@@ -35,6 +35,7 @@ from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import RecoveryState
 from app.desk.selecting.select_state import SelectState
 from app.desk.solids.solid_state import SolidState
+from app.desk.stack.stack_state import StackState
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
 from engine.studio.filing.opening_requests import CancelOpening, Show
@@ -133,6 +134,7 @@ class Desk:
     adjusting: AdjustState = field(default_factory=AdjustState)
     framing: FrameState = field(default_factory=FrameState)
     masks: MaskState = field(default_factory=MaskState)
+    stack: StackState = field(default_factory=StackState)
     moving: MoveState = field(default_factory=MoveState)
     selecting: SelectState = field(default_factory=SelectState)
     opened: OpenedFiles = field(default_factory=OpenedFiles)

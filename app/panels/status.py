@@ -78,6 +78,9 @@ def _left(desk: Desk, right: float) -> None:
         _offer(desk, f"Filming, {desk.known.filming * 100:.0f} %", "stop_film")
     elif desk.places.lost and not desk.painting:
         _offer(desk, "No paint in sight", "nearest")
+    elif desk.stack.only is not None and desk.known.ready:
+        only = desk.stack.only
+        _offer(desk, f"Only “{only}” is seen", "show_all")
     elif not desk.known.ready:
         imgui.text_disabled("Loading the paint engine…")
     else:

@@ -30,6 +30,7 @@ from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
 from engine.studio.selecting.ants_records import AskAnts, PreviewSelection
 from engine.studio.selecting.tint_records import TintRequest
+from engine.studio.stack.stack_requests import ShowOnly
 from engine.studio.textures.texture_requests import LabRequest, MatchRequest, RegionRequest
 
 if TYPE_CHECKING:
@@ -271,6 +272,7 @@ Request = (
     | MoveRequest
     | SheetRequest
     | ShowMask
+    | ShowOnly
     | LandRequest
     | WearRequest
     | TryFill

@@ -45,6 +45,7 @@ from engine.studio.past.travels import Travels
 from engine.studio.ready import ready
 from engine.studio.selecting.ants import AntsFinder
 from engine.studio.selecting.mask_tint import TintFinder
+from engine.studio.stack.layer_pictures import LayerPictures
 from engine.studio.textures import swatch_files, swatches
 from engine.studio.textures.lab import Lab
 from engine.studio.textures.matcher import Matcher
@@ -119,7 +120,7 @@ class Studio(Owned):
             *_each(Moves(easel), FrameFitter(easel)),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
             Work(lambda: past.untold, past.tell),
-            *_each(LandMaker(easel), Sheeting(easel), travels, HereFinder(trail)),
+            *_each(LandMaker(easel), Sheeting(easel), travels, HereFinder(trail), LayerPictures(easel)),
             Work(lambda: self.grower.pending, self._grow),
             *_each(Wearer(easel), Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
             _of(past),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from engine.studio.masked.mask_alone import MaskAlone
 from engine.studio.moving import placed_stroke
 from engine.studio.seen_plan import SeenPlan
 from engine.studio.sight import Key, Sight, grown_parts, tile_rect
+from engine.studio.stack.layer_alone import LayerAlone
 
 Above = Callable[[int, Rect, np.ndarray], np.ndarray]
 
@@ -53,9 +54,9 @@ class Viewer(Owned):
         self._where: SeenAreas = lambda level: []  # what is fresh is seen
         self._plan = SeenPlan()
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
-        self._alone = MaskAlone(self.changed)
+        self._alone, self._only = MaskAlone(self.changed), LayerAlone(self.changed)
         self.heights = SeenHeights(self.changed)
-        self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick, **self._alone.handlers}
+        self.handlers: q.Handlers = {q.Pick: self._pick, **self._alone.handlers, **self._only.handlers}
 
     @property
     def fresh(self) -> bool:
@@ -102,6 +103,7 @@ class Viewer(Owned):
         self._fresh, self.looking = [], None
         self._plan.forget()
         self._alone.forget()
+        self._only.forget()
         self.sight.forget()
 
     def send_fresh(self) -> None:
@@ -135,14 +137,19 @@ class Viewer(Owned):
         pixels = results.frozen(to_premul8(picture))
         read = piece_reader(key[0], part, self._read, self._read_placed)
         heights = self.heights.of(
-            _seen_root(self._subject, self.looking), key[0], part, picture, read, _heaps_of(self._subject)
+            self._only.seen(_seen_root(self._subject, self.looking)),
+            key[0],
+            part,
+            picture,
+            read,
+            _heaps_of(self._subject),
         )
         inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
         self._subject.send(results.Patch(key, inner, pixels, revision, heights))
 
     def picture(self, level: int, whole: Rect) -> np.ndarray:
         """Returns what is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
-        live, root = self._subject.live, _seen_root(self._subject, self.looking)
+        live, root = self._subject.live, self._only.seen(_seen_root(self._subject, self.looking))
         alone = self._alone.picture(root, level, whole, self._read)
         if alone is not None:
             return alone

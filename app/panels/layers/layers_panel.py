@@ -9,7 +9,7 @@ from app.actions import actions
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
-from app.panels.layers import mask_picture
+from app.panels.layers import layer_row, mask_picture
 from app.panels.layers.layer_sliders import LayerSliders
 from engine.painting import commands as c
 from engine.studio.requests import Do
@@ -125,10 +125,7 @@ class LayersPanel:
 
     def _row(self, desk: Desk, row: LayerRow) -> None:
         side = imgui.get_frame_height()
-        eye = icons.EYE if row.visible else icons.EYE_OFF
-        if w.icon_button("eye", eye, ""):
-            desk.post(Do(c.SetLayer(row.name, visible=not row.visible)))
-        w.tooltip("Show or hide", beside=True)
+        layer_row.eye(desk, row)
         imgui.same_line()
         imgui.dummy(ImVec2(row.depth * side * 0.55, 0))
         imgui.same_line(0, 0)
@@ -144,6 +141,7 @@ class LayersPanel:
                 desk.post(Do(c.SelectLayer(source)))
             w.tooltip(f"Shows {source}: click to go there" if source else "Shows the whole painting", beside=True)
             imgui.same_line(0, 2 * desk.scale)
+        layer_row.small_picture(desk, row)
         if row.masked:
             mask_picture.draw(desk, row)
             imgui.same_line(0, 4 * desk.scale)
@@ -178,6 +176,8 @@ class LayersPanel:
         imgui.pop_style_var()
         imgui.pop_style_color()
         w.named(row.name)
+        if layer_row.menu(desk, row):
+            self._editing, self._text, self._focus = row.name, row.name, True
         self._drag(desk, row)
         about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
         blend = dict(blend_titles(desk.known.tables)).get(row.blend, row.blend)
@@ -185,7 +185,7 @@ class LayersPanel:
         about += "Masked  " if row.masked else ""
         about += "Reference: not exported  " if row.reference else ""
         about += "Height of the land: not exported  " if row.height else ""
-        w.tooltip(f"{whole}{about}{blend}\nDrag to reorder, double-click to rename", beside=True)
+        w.tooltip(f"{whole}{about}{blend}\nDrag to reorder, double-click to rename, right-click for more", beside=True)
 
     def _name_field(self, desk: Desk, row: LayerRow) -> None:
         imgui.set_next_item_width(-1)

@@ -1,0 +1,1 @@
+"""Layers as the window looks at them."""

@@ -1,0 +1,92 @@
+"""What stands in a row of the panel of layers beside the name: the eye, a small picture; and its menu."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.actions import actions
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+from engine.painting import commands as c
+from engine.studio.requests import Do
+from engine.studio.results import LayerRow
+from engine.studio.stack.stack_requests import layer_picture
+
+_EYE = "Show or hide\nAlt: show only this, and all again"
+_WIDE = 1.4  # of a picture's height
+_GROUND = (0.5,) * 3  # under pictures of layers: white and black show on it, and the colour of the paper
+_MORE = (  # actions, by groups
+    ("show_only", "duplicate", "show_again", "merge_down", "merge_group", "clear", "adjust"),
+    ("clip", "mask_full", "mask_empty", "wrap"),
+    ("raise", "lower"),
+    ("remove",),
+)
+
+
+def eye(desk: Desk, row: LayerRow) -> None:
+    """Draws the eye; with Alt a click shows only this layer, in place of the painting."""
+    only = desk.stack.only
+    shown = icons.EYE if row.visible or row.name == only else icons.EYE_OFF
+    imgui.push_style_var(imgui.StyleVar_.alpha, 1.0 if only in (None, row.name) else 0.4)
+    pressed = w.icon_button("eye", shown, "", on=row.name == only)
+    imgui.pop_style_var()
+    w.tooltip(_EYE, beside=True)
+    if pressed and (imgui.get_io().key_alt or row.name == only):
+        desk.stack.toggle(desk.post, row.name)
+    elif pressed:
+        desk.post(Do(c.SetLayer(row.name, visible=not row.visible)))
+
+
+def small_picture(desk: Desk, row: LayerRow) -> None:
+    """Draws what is painted on the layer; a click chooses it."""
+    shown = desk.pictures.get(layer_picture(row.name))
+    if shown is None:
+        return
+    height = imgui.get_frame_height()
+    corner, size = imgui.get_cursor_screen_pos(), ImVec2(height * _WIDE, height)
+    frame = desk.known.frame
+    scale = min(size.x / frame.width, size.y / frame.height)
+    wide, high = max(frame.width * scale, 2.0), max(frame.height * scale, 2.0)
+    at = ImVec2(round(corner.x + (size.x - wide) / 2), round(corner.y + (size.y - high) / 2))
+    to = ImVec2(at.x + round(wide), at.y + round(high))
+    if imgui.invisible_button("picture", size):
+        desk.post(Do(c.SelectLayer(row.name)))
+    w.named(f"picture of {row.name}")
+    painter = imgui.get_window_draw_list()
+    painter.add_rect_filled(at, to, theme.packed(_GROUND))
+    painter.add_image(shown, at, to)
+    imgui.same_line(0, 4 * desk.scale)
+
+
+def menu(desk: Desk, row: LayerRow) -> bool:
+    """Draws what a right click on the item just drawn opens: of the row's layer, which is the active one from then on.
+    Returns whether it is to be called otherwise."""
+    imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8 * desk.scale, 6 * desk.scale))
+    imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(8 * desk.scale, 5 * desk.scale))
+    rename = imgui.begin_popup_context_item("of the layer")
+    if rename:
+        rename = _items(desk, row)
+        imgui.end_popup()
+    imgui.pop_style_var(2)
+    return rename
+
+
+def _items(desk: Desk, row: LayerRow) -> bool:
+    if imgui.is_window_appearing() and desk.known.scene is not None and desk.known.scene.active != row.name:
+        desk.post(Do(c.SelectLayer(row.name)))
+    rename = imgui.menu_item_simple("Rename")
+    w.named("Rename")
+    w.tooltip("Call it otherwise; a double click does so, too", beside=True)
+    for number, group in enumerate(_MORE):
+        if number:
+            imgui.separator()
+        for name in group:
+            action = actions.ACTIONS[name]
+            checked = action.checked is not None and action.checked(desk)
+            key = action.keys[0] if action.keys else ""
+            if imgui.menu_item(action.title, key, checked, action.when(desk))[0]:
+                actions.perform(desk, action)
+            w.named(action.title)
+            w.tooltip(action.hint, beside=True)
+    return rename
