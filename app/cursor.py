@@ -14,6 +14,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.canvas.view import place_of_pixel
 from app.desk.desk import Desk
+from app.desk.hand import radius_of
 from app.desk.moving import held_box
 from app.desk.moving.box import SCALES, TURN
 from app.desk.moving.move_state import TOOL
@@ -91,7 +92,7 @@ def draw_outline(desk: Desk) -> None:
     if not (desk.pointer.over_canvas or desk.painting) or not TOOLS[desk.hand.tool].outline:
         return
     painter = imgui.get_background_draw_list()
-    at, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, desk.hand.brush.radius)
+    at, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, radius_of(desk.hand, desk.pointer.eraser))
     painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.55), 0, 1.6 * desk.scale)
     painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.75), 0, 1.0 * desk.scale)
 

@@ -8,6 +8,7 @@ from app import theme
 from app.desk.desk import Desk
 from app.desk.guides import symmetry
 from app.desk.guides.guide_sight import clipped
+from app.desk.hand import radius_of
 from app.tools.tools import TOOLS
 
 _SIDES = 24  # of a handle's circle
@@ -62,7 +63,7 @@ def draw_copies(desk: Desk) -> None:
     if guide is None or guide.off or not shown:
         return
     x, y = desk.view.to_screen(symmetry.centre_of(guide))
-    painter, radius = imgui.get_background_draw_list(), max(1.5, desk.hand.brush.radius)
+    painter, radius = imgui.get_background_draw_list(), max(1.5, radius_of(desk.hand, desk.pointer.eraser))
     dx, dy = desk.pointer.x - x, desk.pointer.y - y
     for copy in symmetry.on_screen(desk.view, guide):
         right, down = copy.moved(dx, dy)

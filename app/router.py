@@ -46,6 +46,7 @@ class Router:
         """Takes one pointer event."""
         desk = self.desk
         desk.pointer.x, desk.pointer.y, desk.pointer.pen = event.x, event.y, event.pen
+        desk.pointer.eraser = event.eraser
         if self.gesture is not None:
             if event.kind == "lost":
                 self.lift()

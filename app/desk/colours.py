@@ -5,10 +5,12 @@ OkLCH after Ottosson 2020, "A perceptual color space for image processing".
 
 from __future__ import annotations
 
+import cmath
 import math
 
 RGB = tuple[float, float, float]
 MOST_CHROMA = 0.33  # of any sRGB colour
+GREY = 0.015  # chroma below which a colour has no hue to turn others by
 
 
 def to_hex(rgb: RGB) -> str:
@@ -68,6 +70,27 @@ def from_oklch(lightness: float, chroma: float, hue: float) -> RGB:
         chroma = low
     r, g, b = (_encoded(max(0.0, min(1.0, v))) for v in _oklch_rgb(lightness, chroma, hue))
     return r, g, b
+
+
+def gone_along(rgb: RGB, old: RGB, new: RGB) -> RGB:
+    """Returns the colour that lies to `new` as `rgb` lies to `old`: as much lighter, and as far off in chroma and hue,
+    which turn with the hue.  Where there is no room to be so much lighter, or darker, it goes the other way; along with
+    a grey all is grey, unless `old` is one, too."""
+    if new == old:
+        return rgb
+    (light, *own), (light_old, *first), (light_new, *then) = (to_oklch(colour) for colour in (rgb, old, new))
+    by = light - light_old
+    room = 1.0 - light_new if by > 0 else light_new
+    by = by if 2.0 * room >= abs(by) else -by
+    away = _plane(*own) - _plane(*first)
+    if first[0] >= GREY:
+        away *= cmath.rect(min(1.0, then[0] / first[0]), math.radians(then[1] - first[1]))
+    chroma, hue = cmath.polar(_plane(*then) + away)
+    return from_oklch(light_new + by, chroma, math.degrees(hue) % 360)
+
+
+def _plane(chroma: float, hue: float) -> complex:
+    return cmath.rect(chroma, math.radians(hue))
 
 
 def _shows(linear: RGB) -> bool:

@@ -19,7 +19,7 @@ from app.desk.examples.example_state import Entry, ExampleState
 from app.desk.filling.fill_state import FillState
 from app.desk.framing.frame_state import FrameState
 from app.desk.guides.guide_state import GuideState
-from app.desk.hand import Hand
+from app.desk.hand import Hand, radius_of
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.land.land_state import LandState
@@ -95,6 +95,7 @@ class Pointer:
     y: float = 0.0
     over_canvas: bool = False
     pen: bool = False
+    eraser: bool = False
     shift: bool = False
     alt: bool = False
 
@@ -229,7 +230,7 @@ class Desk:
     def stroke_brush(self, eraser: bool) -> tuple[int, Brush]:
         """Returns the level of a stroke begun now, and the brush with its radius in pixels of that level."""
         level = self.view.shown_level
-        held, mode = self.hand.dipped(), self.hand.stroke_mode(eraser)
+        held, mode = replace(self.hand.dipped(), radius=radius_of(self.hand, eraser)), self.hand.stroke_mode(eraser)
         brush = replace(held.magnified(1.0 / self.view.scale(level)), mode=mode.name)
         return level, self.examples.erasing(brush) if mode.takes_away else brush
 

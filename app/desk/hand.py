@@ -9,6 +9,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from app.desk.colours import RGB, to_hex
+from app.desk.holding import dipping
+from app.desk.holding.sizes import Sizes
 from engine.brush.modes import MODES, Mode
 from engine.brush.settings import Brush
 from engine.painting.commands import DefineTexture
@@ -31,6 +33,7 @@ class Hand:
     stabiliser: float = 0.3
     paper_stays: bool = False
     provided: set[tuple[int, DefineTexture]] = field(default_factory=set)
+    sizes: Sizes = field(default_factory=Sizes)
     _brush: Brush = field(default_factory=Brush)
     _preset: str = ""
     _needs: tuple[DefineTexture, ...] = ()
@@ -39,7 +42,7 @@ class Hand:
 
     @property
     def brush(self) -> Brush:
-        """Returns the brush; its radius is in pixels of the screen, its colour counts only in `dipped`."""
+        """Returns the brush; its radius is in pixels of the screen, its colour is what its inks were mixed for."""
         return self._brush
 
     @property
@@ -69,11 +72,12 @@ class Hand:
         return MODES[row.eraser] if self._erasing or eraser else row
 
     def dipped(self) -> Brush:
-        """Returns the brush with the colour on it."""
-        return replace(self._brush, colour=to_hex(self.colour))
+        """Returns the brush with the colour on it, as strokes have it."""
+        return dipping.dipped(self._brush, to_hex(self.colour))
 
     def take(self, brush: Brush, preset: str | None = None, needs: tuple[DefineTexture, ...] | None = None) -> None:
         """Takes a brush; without a name or textures of its own it keeps those of the one before."""
+        self.sizes.leave(self._preset, self._brush)
         self._brush = brush
         self._preset = self._preset if preset is None else preset
         self._needs = self._needs if needs is None else needs
@@ -89,10 +93,13 @@ class Hand:
 
     def use(self, tool: str) -> None:
         """Chooses a tool; the brush paints again."""
-        self._tool, self._erasing = tool, False
+        self.erase(False)
+        self._tool = tool
 
     def erase(self, on: bool = True) -> None:
-        """Makes the brush erase, or paint again."""
+        """Makes the brush erase, or paint again, each at its own size."""
+        if on != self._erasing:
+            self.change(radius=self.sizes.turned(self._brush.radius))
         self._tool, self._erasing = "brush", on
 
     def resize(self, factor: float) -> None:
@@ -114,3 +121,14 @@ class Hand:
 def go_on_with_brush(hand: Hand) -> None:
     """Chooses the brush, unless a tool that works with it is chosen."""
     hand.use(hand.tool if hand.tool in WITH_BRUSH else "brush")
+
+
+def mixed_now(hand: Hand) -> Brush:
+    """Returns the brush with the colour, and its inks as they go with that; which are fixed is still told."""
+    return dipping.in_colour(hand.brush, to_hex(hand.colour))
+
+
+def radius_of(hand: Hand, eraser: bool) -> float:
+    """Returns the radius of a stroke, pixels of the screen; `eraser`: the pen's other end touches the canvas."""
+    resting = hand.sizes.resting
+    return resting if eraser and not hand.erasing and resting is not None else hand.brush.radius

@@ -8,6 +8,7 @@ from typing import Any
 
 from immutables import Map
 
+from app.desk.holding import dipping
 from engine.brush.ops import chosen
 from engine.brush.parts import Component, Surface
 from engine.brush.settings import Brush
@@ -168,7 +169,7 @@ def only_with(brush: Brush, textures: frozenset[str]) -> Brush:
 def with_texture(brush: Brush, how: str, texture: str, pen: bool = False) -> Brush:
     """Returns the brush with a texture in its ink, as its dry brush or as its paper."""
     if how == "ink":
-        return replace(brush, ink=(Component(texture, 1.0, WHITE),), mode="paint")
+        return replace(brush, ink=(dipping.fix(Component(texture, 1.0, WHITE)),), mode="paint")
     surface: dict[str, Any] = {how: Surface(texture, 0.9)}
     return lightened(replace(brush, **surface), pen) if how == "grain" else replace(brush, **surface)
 

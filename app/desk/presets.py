@@ -26,13 +26,15 @@ _GROUP_RANK = {"Basic": 0, OWN: 2}  # others lie between, by name
 
 @dataclass(frozen=True, slots=True)
 class Preset:
-    """A brush under a name; presets of one `group` are listed together.  `textures`: definitions that it needs."""
+    """A brush under a name; presets of one `group` are listed together.  `textures`: definitions that it needs;
+    `coloured`: it is about its colour, which is painted with once it is chosen."""
 
     name: str
     brush: Brush
     path: Path | None = None
     group: str = OWN
     textures: tuple[DefineTexture, ...] = ()
+    coloured: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,8 +112,9 @@ def _read(path: Path) -> Preset:
     name = data.pop("name", None) or path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
     group = str(data.pop("group", OWN))
     textures = definitions.read(data.pop("textures", []), "textures", path.parent)
+    coloured = parts.flag(data.pop("coloured", False), "coloured")
     brush = settings.from_json(data.pop("brush", data))
-    return Preset(str(name), brush, path, group, textures)
+    return Preset(str(name), brush, path, group, textures, coloured)
 
 
 def found(presets: Iterable[Preset], group: str, words: str) -> list[tuple[str, list[Preset]]]:
@@ -153,6 +156,8 @@ def save_brush(preset: Preset, folder: Path) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     path = _own_path(preset.name, folder)
     told: dict[str, Any] = {"name": preset.name, "brush": settings.to_json(preset.brush)}
+    if preset.coloured:
+        told["coloured"] = True
     if preset.textures:
         told["textures"] = definitions.to_json(preset.textures)
     text = json.dumps(told, indent=1, ensure_ascii=False)

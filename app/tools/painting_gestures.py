@@ -147,7 +147,7 @@ def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
     """Returns a stroke in the texture lab's spectrum."""
     lab = desk.lab
     built_in = frozenset(row.name for row in desk.known.tables.kinds if not row.pictured)
-    brush = lab.brush(desk.hand.brush, to_hex(desk.hand.colour), first.eraser, built_in)
+    brush = lab.brush(desk.hand.dipped(), to_hex(desk.hand.colour), first.eraser, built_in)
     smoother = Smoother(desk.hand.stabiliser)
     desk.post(LabBegin(brush))
     lab.painting = True

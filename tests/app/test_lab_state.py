@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from immutables import Map
 
+from app.desk.holding import dipping
 from app.desk.lab_state import PICTURED, SETTLE, LabState, only_with, with_texture
 from app.panels.lab import lab_panel as panel
 from engine.brush.parts import Component, Edge, Surface
@@ -138,7 +139,7 @@ def test_a_texture_in_use_follows_or_is_let_go(follow, names):
 
 def test_a_brush_takes_the_texture():
     brush = Brush(mode="erase", ink=(Component("rock"),))
-    assert with_texture(brush, "ink", "A").ink == (Component("A", 1.0, "#ffffff"),)
+    assert with_texture(brush, "ink", "A").ink == (dipping.fix(Component("A", 1.0, "#ffffff")),)  # white stays white
     assert with_texture(brush, "ink", "A").mode == "paint"
     assert with_texture(brush, "grain", "A").grain.texture == "A"
     assert with_texture(brush, "density", "A").ink == brush.ink

@@ -11,6 +11,7 @@ from PIL import Image
 
 from app.desk import palette, presets
 from app.desk.hand import Hand
+from app.desk.holding.taking import take_preset
 from app.desk.known import Known
 from app.desk.presets import Preset
 from engine.brush import settings
@@ -271,3 +272,22 @@ def test_what_only_the_painting_has_is_told():
     desk.post(q.Do(parse({"do": "texture", "name": "fur", "maker": "canvas", "rect": [0, 0, 0, 8, 8]})))
     desk.hand.take(settings.from_json({"ink": [{"texture": "fur"}]}))
     assert palette.belonging(desk) == ((), ("fur",))
+
+
+def test_choosing_a_brush_leaves_the_colour_alone_unless_it_is_about_its_own():
+    desk = SimpleNamespace(
+        hand=Hand(), known=Known(), pointer=SimpleNamespace(pen=False), examples=SimpleNamespace(adopted=None)
+    )
+    before = desk.hand.colour
+    red = Preset("Red", settings.from_json({"colour": "#ff0000", "ink": [{"texture": "rock"}]}))
+    eraser = Preset("Eraser", settings.from_json({"mode": "erase", "radius": 24}))
+    take_preset(desk, red)
+    assert (desk.hand.preset, desk.hand.colour) == ("Red", before)
+    take_preset(desk, eraser)
+    desk.hand.resize(2.0)
+    take_preset(desk, replace(red, coloured=True))
+    assert desk.hand.colour == (1.0, 0.0, 0.0)
+    take_preset(desk, eraser)
+    assert desk.hand.brush.radius == 48.0
+    take_preset(desk, red, keep_size=True)
+    assert desk.hand.brush.radius == 48.0

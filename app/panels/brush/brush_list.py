@@ -8,10 +8,9 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import palette, presets
+from app.desk import presets
 from app.desk.desk import Desk, FileWork
-from app.desk.examples import example_use
-from app.desk.hand import go_on_with_brush
+from app.desk.holding.taking import take_preset
 from app.desk.presets import Preset
 from app.panels.controls import widgets as w
 from engine.studio.requests import Prepare, Swatch
@@ -165,15 +164,8 @@ def _picture(desk: Desk, preset: Preset) -> Swatch:
 
 
 def hold(desk: Desk, preset: Preset) -> None:
-    """Paints with a brush from now on, in its own colours where they belong together; Shift keeps the size."""
-    radius = desk.hand.brush.radius
-    palette.take(desk, preset)
-    example_use.adopt(desk)
-    if preset.brush.ink:
-        desk.hand.colour = preset.brush.rgb
-    go_on_with_brush(desk.hand)
-    if imgui.get_io().key_shift:
-        desk.hand.change(radius=radius)
+    """Paints with a brush from now on; Shift keeps the size."""
+    take_preset(desk, preset, imgui.get_io().key_shift)
 
 
 def _deletes(desk: Desk, preset: Preset) -> None:

@@ -10,15 +10,16 @@ from imgui_bundle import imgui
 from app import icons
 from app.desk import palette, presets
 from app.desk.desk import Desk, FileWork
+from app.desk.hand import mixed_now
 from app.desk.presets import Preset
 from app.panels.controls import widgets as w
 
 
 class SaveBrush:
-    """Remembers the name as it is typed."""
+    """Remembers the name as it is typed, and whether the colour belongs to the brush."""
 
     def __init__(self) -> None:
-        self._name = ""
+        self._name, self._coloured = "", False
 
     def draw(self, desk: Desk) -> None:
         """Draws the button, on the right end of the header just drawn, and what it opens."""
@@ -28,6 +29,7 @@ class SaveBrush:
         imgui.set_cursor_pos_x(imgui.get_style().window_padding.x + right - side)
         if w.icon_button("save brush", icons.DISK, "Save this brush under a name", size=side):
             self._name = presets.free_brush_name(desk.hand.preset or "My brush", desk.known.presets)
+            self._coloured = any(p.name == desk.hand.preset and p.coloured for p in desk.known.presets)
             imgui.open_popup("save brush")
         if not imgui.begin_popup("save brush"):
             return
@@ -44,8 +46,9 @@ class SaveBrush:
             imgui.text_disabled("Replaces your brush of this name")
         elif name != " ".join(self._name.split()):
             imgui.text_disabled(f"Saved as “{name}”")
+        _, self._coloured = w.tick("With its colour", self._coloured, "Whoever chooses it paints in this colour then")
         if w.text_button("Save", "Write it into the folder of your brushes", width=em * 6) or entered:
-            _save(desk, name)
+            _save(desk, name, self._coloured)
             imgui.close_current_popup()
         imgui.same_line()
         if w.text_button("Cancel", "Go back", width=em * 6):
@@ -75,6 +78,6 @@ class _Keep(FileWork):
         desk.say(f"The brush was not saved: {fault}", bad=True)
 
 
-def _save(desk: Desk, name: str) -> None:
+def _save(desk: Desk, name: str, coloured: bool) -> None:
     textures, stay = palette.belonging(desk)
-    desk.work(_Keep(Preset(name, desk.hand.dipped(), textures=textures), stay))
+    desk.work(_Keep(Preset(name, mixed_now(desk.hand), textures=textures, coloured=coloured), stay))

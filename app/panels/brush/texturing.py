@@ -14,10 +14,13 @@ from immutables import Map
 
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
+from app.desk.hand import mixed_now
+from app.desk.holding import dipping
 from app.desk.lab_state import lightened
 from app.panels.controls import texture_choice, texture_rows
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
+from app.panels.controls.kept_switch import kept_switch
 from engine.brush.parts import Edge, Surface, Tip
 
 P = TypeVar("P", Surface, Tip)
@@ -47,7 +50,7 @@ class Texturing:
         for name, title, hint, body in _SECTIONS:
             if name in unfelt:
                 continue
-            held = getattr(desk.hand.brush, name)
+            held = getattr(mixed_now(desk.hand), name)
             shown, on = w.switched_section(title, hint, held is not None)
             if on != (held is not None):
                 desk.hand.paper_stays = desk.hand.paper_stays and name != "grain"
@@ -66,9 +69,8 @@ class Texturing:
                 self._show(name)
             if held is not None:
                 self._kept[name] = held
-            if held != getattr(desk.hand.brush, name):
-                setting: dict[str, Any] = {name: held}
-                desk.hand.change(**setting)
+            if held != getattr(mixed_now(desk.hand), name):
+                _set(desk, name, held)
         return unfolded
 
     def _show(self, name: str) -> None:
@@ -145,6 +147,14 @@ _SECTIONS: tuple[tuple[str, str, str, Callable[[Texturing, Desk, Any], Any]], ..
 )
 
 
+def _set(desk: Desk, name: str, part: Surface | Edge | Tip | None) -> None:
+    if isinstance(part, Edge):
+        desk.hand.take(dipping.with_rim(desk.hand.brush, to_hex(desk.hand.colour), part))
+    else:
+        setting: dict[str, Any] = {name: part}
+        desk.hand.change(**setting)
+
+
 def _texture(desk: Desk, part: Any) -> Any:
     chosen = texture_choice.chooser(desk, part.texture, "The texture")
     return replace(part, texture=chosen, parameters=Map()) if chosen and chosen != part.texture else part
@@ -170,4 +180,6 @@ def _tint(desk: Desk, part: Edge) -> Edge:
         rgb = w.colour_popup("tint colour", part.rgb)
         if rgb is not None:
             part = replace(part, colour=to_hex(rgb))
+        imgui.same_line()
+        part = dipping.fix_rim(part, kept_switch(dipping.is_fixed(part)))
     return part

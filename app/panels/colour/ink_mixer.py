@@ -11,10 +11,13 @@ from app.desk import palette
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.examples.following import Following
+from app.desk.hand import mixed_now
+from app.desk.holding import dipping
 from app.desk.outside import pictured
 from app.panels.controls import texture_choice, texture_rows
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
+from app.panels.controls.kept_switch import kept_switch
 from engine.brush.settings import COMPONENTS_CAP, Brush, Component
 from engine.studio.requests import Swatch
 
@@ -45,14 +48,14 @@ class InkPanel:
         self._picture(desk)
         self._welcome(desk)
         removed = None
-        for i, component in enumerate(desk.hand.brush.ink):
+        for i, component in enumerate(mixed_now(desk.hand).ink):
             imgui.push_id(i)
             changed, keep = self._component(desk, component)
             imgui.pop_id()
             if not keep:
                 removed = i
             elif changed is not component:
-                desk.hand.change(ink=(*desk.hand.brush.ink[:i], changed, *desk.hand.brush.ink[i + 1 :]))
+                desk.hand.take(dipping.with_ink(desk.hand.brush, to_hex(desk.hand.colour), i, changed))
         if removed is not None:
             desk.hand.change(ink=(*desk.hand.brush.ink[:removed], *desk.hand.brush.ink[removed + 1 :]))
         if desk.hand.brush.ink:
@@ -98,7 +101,7 @@ class InkPanel:
             component = replace(component, colour=to_hex(rgb))
         imgui.same_line()
         name = texture_rows.label(desk, component.texture)
-        room = imgui.get_content_region_avail().x - 2 * side - 2 * gap
+        room = imgui.get_content_region_avail().x - 3 * side - 3 * gap
         imgui.push_style_var(imgui.StyleVar_.cell_padding, ImVec2(0, 0))
         imgui.begin_child("amount", ImVec2(room, side))
         changed, amount = w.slider(name, component.amount * 100, (0.0, 100.0), "How much of it", form="%.0f%%")
@@ -106,6 +109,10 @@ class InkPanel:
         imgui.pop_style_var()
         if changed:
             component = replace(component, amount=round(amount / 100, 4))
+        imgui.same_line()
+        kept = kept_switch(dipping.is_fixed(component))
+        if kept != dipping.is_fixed(component):
+            component = dipping.fix(component, kept)
         imgui.same_line()
         if w.icon_button("more", icons.SLIDERS, "Its own settings"):
             imgui.open_popup("settings")
@@ -165,7 +172,8 @@ class InkPanel:
         name = texture_choice.listed(desk)
         if name:
             part = Component(name, 0.6, _COLOURS.get(name, "#ffffff"))
-            desk.hand.change(ink=(*desk.hand.brush.ink, part))
+            mixed = mixed_now(desk.hand)
+            desk.hand.take(replace(mixed, ink=(*mixed.ink, part)))
         imgui.end_popup()
 
     def _welcome(self, desk: Desk) -> None:
@@ -173,7 +181,7 @@ class InkPanel:
         name, scene = desk.asked.texture, desk.known.scene
         if not name or scene is None or name not in scene.textures:
             return
-        part, desk.asked.texture = Component(name, 1.0, "#ffffff"), ""
+        part, desk.asked.texture = dipping.fix(Component(name, 1.0, "#ffffff")), ""
         if len(desk.hand.brush.ink) < COMPONENTS_CAP:
             desk.hand.change(ink=(*desk.hand.brush.ink, part))
 

@@ -1,0 +1,1 @@
+"""The brush in the hand: its colour and its size."""
