@@ -29,6 +29,7 @@ _SHAPES = {
 }
 # By eighths of a turn from the right, clockwise, of which every other half is the same.
 _WAYS = glfw.RESIZE_EW_CURSOR, glfw.RESIZE_NWSE_CURSOR, glfw.RESIZE_NS_CURSOR, glfw.RESIZE_NESW_CURSOR
+_RINGS, _GHOST = 32, 0.8  # circles that show a dab, and how opaque it is
 _AROUND = 0.6  # how dark paper is around the frame
 
 
@@ -92,9 +93,56 @@ def draw_outline(desk: Desk) -> None:
     if not (desk.pointer.over_canvas or desk.painting) or not TOOLS[desk.hand.tool].outline:
         return
     painter = imgui.get_background_draw_list()
-    at, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, radius_of(desk.hand, desk.pointer.eraser))
+    if desk.hand_sight.ghost is not None:
+        return
+    at, radius = _brush_at(desk), max(1.5, radius_of(desk.hand, desk.pointer.eraser))
     painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.55), 0, 1.6 * desk.scale)
     painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.75), 0, 1.0 * desk.scale)
+
+
+def _brush_at(desk: Desk) -> ImVec2:
+    """Returns where the brush is on the screen; draws the rope by which the pen draws it, if there is one."""
+    pen = ImVec2(desk.pointer.x, desk.pointer.y)
+    if desk.hand_sight.brush_at is None:
+        return pen
+    at, painter = ImVec2(*desk.view.to_screen(desk.hand_sight.brush_at)), imgui.get_background_draw_list()
+    for width, grey, alpha in ((2.6, 0.0, 0.45), (1.2, 1.0, 0.85)):
+        painter.add_line(at, pen, theme.packed((grey,) * 3, alpha), width * desk.scale)
+    return at
+
+
+def draw_ghost(desk: Desk) -> None:
+    """Draws the dab of a brush whose size is dragged, with what that is."""
+    ghost = desk.hand_sight.ghost
+    if ghost is None:
+        return
+    brush, painter, at = desk.hand.brush, imgui.get_foreground_draw_list(), ImVec2(*ghost)
+    colour = (0.5,) * 3 if not brush.row.lays_ink or desk.hand.erasing else desk.hand.colour
+    left = 1.0
+    for radius, alpha in dab_rings(brush.radius, brush.hardness):
+        painter.add_circle_filled(at, radius, theme.packed(colour, 1.0 - (1.0 - _GHOST * alpha) / left), 0)
+        left = 1.0 - _GHOST * alpha
+    for radius, alpha in ((brush.radius, 0.9), (brush.radius * brush.hardness, 0.5)):
+        painter.add_circle(at, radius + 0.5, theme.packed((0.0,) * 3, 0.55 * alpha), 0, 1.6 * desk.scale)
+        painter.add_circle(at, radius - 0.5, theme.packed((1.0,) * 3, alpha), 0, 1.0 * desk.scale)
+    text = f"{brush.radius:.1f} px   {brush.hardness:.0%} hard"
+    size, pad = imgui.calc_text_size(text), 5 * desk.scale
+    x = at.x - size.x / 2
+    y = min(at.y + brush.radius + 2 * pad, desk.view.height - size.y - 3 * pad)
+    painter.add_rect_filled((x - pad, y - pad), (x + size.x + pad, y + size.y + pad), theme.packed(theme.PANEL), pad)
+    painter.add_text(ImVec2(x, y), theme.packed(theme.TEXT), text)
+
+
+def dab_rings(radius: float, hardness: float) -> list[tuple[float, float]]:
+    """Returns circles within one another that show a dab, from the outer: (radius, alpha there), as
+    `engine.brush.discs` has its profile."""
+    outer, inner = radius + 0.5, max(0.0, min(hardness * radius, radius - 0.5))
+    rings = []
+    for i in range(_RINGS):
+        r = outer + (inner - outer) * (i + 0.5) / _RINGS
+        u = (r * r - inner * inner) / (outer * outer - inner * inner)
+        rings.append((r, (1 - u) ** 2 * (1 + 2 * u)))
+    return rings
 
 
 def draw_growing(desk: Desk) -> None:

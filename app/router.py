@@ -17,6 +17,7 @@ from app.panels.layout import Layout
 from app.tools.asking_gestures import ask_here, mark, pick, swap
 from app.tools.gesture import Gesture
 from app.tools.land_gestures import look_around, on_the_land, orbit
+from app.tools.size_gestures import drag_size
 from app.tools.tools import TOOLS
 from app.tools.view_gestures import pan, turn, zoom
 
@@ -128,6 +129,8 @@ class Router:
             begin = swap
         elif self.desk.past.asking:
             begin = ask_here
+        elif self.desk.pointer.alt and self.desk.hand.tool == "brush":
+            begin = drag_size
         else:
             begin = TOOLS[self.desk.hand.tool].gesture
         return begin(self.desk, event)

@@ -25,6 +25,7 @@ from app.decoration import Decoration
 from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
+from app.desk.holding.size_lock import follow_view
 from app.desk.moving import floating, held_box
 from app.desk.outside import bringing
 from app.desk.places import going
@@ -169,6 +170,7 @@ class Window:
         with spare("on the view's way"):
             desk.view = desk.glide.step(desk.view, seconds)
             moving = desk.land.step(seconds, now) or moving
+            follow_view(desk)
             going.watch(desk, now)
         self._panels()
         with spare("asking for what is to be seen"):
@@ -228,6 +230,7 @@ class Window:
         draw_assistants(self.desk)
         guide_marks.draw_guides(self.desk)
         cursor.draw_outline(self.desk)
+        cursor.draw_ghost(self.desk)
         guide_marks.draw_copies(self.desk)
         cursor.draw_shape(self.desk)
         guide_marks.draw_path(self.desk)

@@ -25,12 +25,14 @@ BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 class Hand:
     """`provided`: textures that were posted to the engine, each with the serial of the painting that it is for;
     `paper_stays`: the brushes that are taken next are used on the paper of this one; `stabiliser`: how much the path
-    of a stroke is smoothed, 0..1; `colours`: those painted with before, the last one first."""
+    of a stroke is smoothed, 0..1; `steadying`: how, a row of engine.brush.steadying.STEADIED; `colours`: those painted
+    with before, the last one first."""
 
     colour: RGB = (0.11, 0.16, 0.24)
     other_colour: RGB = WHITE
     colours: list[RGB] = field(default_factory=list)
     stabiliser: float = 0.3
+    steadying: str = "weighted"
     paper_stays: bool = False
     provided: set[tuple[int, DefineTexture]] = field(default_factory=set)
     sizes: Sizes = field(default_factory=Sizes)

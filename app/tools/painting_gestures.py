@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.canvas.view import View
+from app.canvas.view import View, place_of_pixel
 from app.desk import palette
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
@@ -15,6 +15,7 @@ from app.desk.examples import example_use
 from app.desk.guides import symmetry
 from app.desk.guides.snapping import Snapper
 from app.desk.guides.tile_seams import tell_seams
+from app.desk.holding.size_lock import follow_view
 from app.desk.moving.painted_through import Aimed, through
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
@@ -22,6 +23,7 @@ from app.tools.mask_strokes import MaskBegun, begin_on_mask
 from app.trace import trace, trace_points
 from engine.brush.settings import Brush
 from engine.brush.smoothing import Smoother
+from engine.brush.steadying import ON_ROPE
 from engine.painting.points import REACH
 from engine.studio.requests import Abandon, Begin, Finish, Points
 from engine.studio.textures.texture_requests import LabBegin, LabEnd, LabPoints, RegionBegin, RegionEnd, RegionPoints
@@ -86,6 +88,7 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
         desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
     example_use.fit_within_reach(desk)
     palette.provide(desk)
+    follow_view(desk)
     level, brush = desk.stroke_brush(first.eraser)
     if layer is not None and layer.wrap is not None:
         tell_seams(desk, layer.wrap, level, brush)
@@ -107,7 +110,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     if begun is None:
         return
     level, origin, brush = begun.level, begun.origin, begun.brush
-    smoother, straight = Smoother(desk.hand.stabiliser), desk.pointer.shift
+    smoother, straight = _smoother(desk, 1.0 / desk.view.scale(level)), desk.pointer.shift
     snapper = Snapper(desk, level, origin, straight)
     desk.painting = True
     done = False
@@ -117,6 +120,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
             if event.kind in ("down", "move"):
                 points = np.array([_point(desk.view, level, origin, event, first.time)])
                 begun.post(desk, snapper.add(smoother.add(points)))
+                _show_rope(desk, begun, smoother)
             if event.kind in ENDS:
                 break
             event = yield
@@ -127,11 +131,23 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
         done = True
         desk.guides.last = desk.view.to_canvas(event.x, event.y)
     finally:
-        desk.painting = False
+        desk.painting, desk.hand_sight.brush_at = False, None
         begun.end(desk, done)
         trace("a stroke is posted" if done else "a stroke is dropped")
     if brush.row.lays_ink and not isinstance(begun, MaskBegun):
         desk.hand.remember()
+
+
+def _smoother(desk: Desk, unit: float) -> Smoother:
+    """Returns what steadies the hand; `unit`: how many pixels of what is painted on one of the screen is."""
+    return Smoother(desk.hand.stabiliser, way=desk.hand.steadying, unit=unit)
+
+
+def _show_rope(desk: Desk, begun: Begun | MaskBegun, smoother: Smoother) -> None:
+    """Shows where the brush is, if that trails the pen on a rope."""
+    if smoother.at is not None and desk.hand.steadying == ON_ROPE and desk.hand.stabiliser:
+        corner = place_of_pixel(begun.level, *begun.origin)
+        desk.hand_sight.brush_at = corner.moved(*smoother.at, begun.level)
 
 
 def _from_last(desk: Desk, level: int, origin: tuple[int, int], first: PenEvent) -> np.ndarray:
@@ -148,7 +164,7 @@ def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
     lab = desk.lab
     built_in = frozenset(row.name for row in desk.known.tables.kinds if not row.pictured)
     brush = lab.brush(desk.hand.dipped(), to_hex(desk.hand.colour), first.eraser, built_in)
-    smoother = Smoother(desk.hand.stabiliser)
+    smoother = _smoother(desk, lab.made.size[0] / (lab.spot[2] if lab.spot is not None else lab.made.size[0]))
     desk.post(LabBegin(brush))
     lab.painting = True
     done = False

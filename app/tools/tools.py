@@ -21,7 +21,7 @@ from app.tools.view_gestures import pan, turn, zoom
 _JOINING = "; Shift adds, Alt takes away, both leave what both have"
 _HELD = "with Alt from its middle, with Shift"
 TOOLS: dict[str, Tool] = {
-    "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
+    "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush (Alt+drag: its size)", True),
     "move": Tool("Move", icons.MOVE, move, "Drag the layer, or what is selected of it, or a handle", told=move_hint),
     "draw_line": Tool(
         "Line",

@@ -8,32 +8,38 @@ smoothed with it.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from engine.brush.samples import COLUMNS, cleaned
+from engine.brush.steadying import STEADIED
 
 TOLERANCE = 0.1  # px between the curve and its polyline
 PIECES_CAP = 256  # of one curve piece
 _TIME = 5
-_NOMINAL = 0.008  # s between samples whose times do not rise
-_SLOWEST = 0.15  # s, the lag of the strongest stabiliser
 
 
 class Smoother:
     """Raw samples of one stroke in, points of its smooth path out; in any portions the same path, bit for bit.
 
-    `stabiliser`, 0..1: makes the path follow the pen with a lag of up to 0.15 s, which steadies the hand; the lag
-    grows with the square.  `finish` closes the path at the last sample whatever the lag.
+    `stabiliser`, 0..1: how much the hand is steadied, in a `way` of STEADIED; `unit`: how many of the samples' pixels
+    one of the screen is.  `finish` closes the path at the last sample, unless the way has it end where the brush is.
     """
 
-    def __init__(self, stabiliser: float = 0.0, tolerance: float = TOLERANCE) -> None:
-        self._lag = _SLOWEST * min(max(stabiliser, 0.0), 1.0) ** 2
+    def __init__(
+        self, stabiliser: float = 0.0, tolerance: float = TOLERANCE, way: str = "weighted", unit: float = 1.0
+    ) -> None:
+        strength = min(max(stabiliser, 0.0), 1.0)
+        self._follow = STEADIED[way].make(strength, unit) if strength else None
+        self._to_the_pen = STEADIED[way].to_the_pen
         self._tolerance = tolerance
         self._recent = np.empty((0, COLUMNS))  # the last two control points
         self._raw: np.ndarray | None = None  # the last sample as it came
         self.dropped = 0
+
+    @property
+    def at(self) -> tuple[float, float] | None:
+        """Returns where the brush is, which may trail the pen; None before it begins."""
+        return (float(self._recent[-1, 0]), float(self._recent[-1, 1])) if len(self._recent) else None
 
     def add(self, samples: np.ndarray) -> np.ndarray:
         """Returns the points, float64 (m, 6), by which `samples`, float64 (n, 2..6), lengthen the path.
@@ -57,14 +63,14 @@ class Smoother:
         if self._raw is None:
             return np.empty((0, COLUMNS))
         before, last = self._recent
-        end = self._raw[None]
-        if np.array_equal(last, self._raw):
+        end = self._raw[None] if self._to_the_pen or self._follow is None else last[None]
+        if np.array_equal(last, end[0]):
             return _pieces(np.stack([before, last, last]), self._tolerance) if (before != last).any() else end[:0]
         return _pieces(np.concatenate([self._recent, end, end]), self._tolerance)
 
     def _steadied(self, samples: np.ndarray) -> np.ndarray:
-        """Returns the samples with positions that follow with the stabiliser's lag: a first-order filter in time."""
-        if not self._lag:
+        """Returns the samples with the positions that the brush has as it follows them."""
+        if self._follow is None:
             return samples
         out = samples.copy()
         before = self._raw if self._raw is not None else samples[0]
@@ -73,9 +79,7 @@ class Smoother:
         for i, sample in enumerate(samples.tolist()):
             passed = sample[_TIME] - time
             time = sample[_TIME]
-            part = -math.expm1(-(passed if 0.0 < passed < 1.0 else _NOMINAL) / self._lag)
-            x += (sample[0] - x) * part
-            y += (sample[1] - y) * part
+            x, y = self._follow((x, y), (sample[0], sample[1]), passed)
             out[i, 0], out[i, 1] = x, y
         return out
 

@@ -13,12 +13,13 @@ from app.desk import palette
 from app.desk.desk import Desk
 from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
-from app.desk.hand import LARGEST, SMALLEST, go_on_with_brush
+from app.desk.hand import go_on_with_brush
 from app.desk.knots import at
 from app.panels.brush import example_section, move_choice, shape_choice
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.operations import Operations
 from app.panels.brush.save_brush import SaveBrush
+from app.panels.brush.size_row import draw_radius, draw_steadying
 from app.panels.brush.symmetry_section import SymmetrySection
 from app.panels.brush.texturing import Texturing
 from app.panels.brush.thickness_section import draw_thickness
@@ -169,21 +170,18 @@ class BrushPanel:
         for name, row in SETTINGS.items():
             if name in desk.hand.stroke_mode().unfelt:
                 continue
-            lo, hi = (SMALLEST, LARGEST) if name == "radius" else row.slider
-            form = "%.1f px" if row.unit == "px" else "%.2f"
-            hint = f"{row.tooltip}  ([ and ])" if name == "radius" else row.tooltip
-            shown, form, lo, hi = _percent(getattr(desk.hand.brush, name), form, lo, hi, row.unit)
-            changed, value = w.slider(row.label, shown, (lo, hi), hint, form=form, curved=row.logarithmic)
+            if name == "radius":
+                draw_radius(desk)
+                continue
+            shown, form, lo, hi = _percent(getattr(desk.hand.brush, name), "%.2f", *row.slider, row.unit)
+            changed, value = w.slider(row.label, shown, (lo, hi), row.tooltip, form=form, curved=row.logarithmic)
             if changed:
                 value = value / 100 if form.endswith("%%") else value
                 setting: dict[str, Any] = {name: row.clamped(round(value, 4))}
                 desk.hand.change(**setting)
 
         draw_thickness(desk)
-        hint = "How much the stroke lags behind the pen to steady the hand"
-        changed, value = w.slider("Stabiliser", desk.hand.stabiliser * 100, (0.0, 100.0), hint, form="%.0f%%")
-        if changed:
-            desk.hand.stabiliser = round(value / 100, 3)
+        draw_steadying(desk)
 
     def _dynamics(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():

@@ -248,6 +248,8 @@ class Keys:
             ("Shift + Space + drag", "Turn the view"),
             ("Ctrl + Space + drag", "Zoom"),
             ("Ctrl + click, right button", "Pick a colour"),
+            ("Alt + drag, with the brush", "Its radius sideways, its hardness up and down"),
+            ("Shift + drag or click", "A straight line"),
         ]
         rows += [
             (", ".join(a.keys), a.title)
