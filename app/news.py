@@ -8,6 +8,7 @@ from pathlib import Path
 from app.desk import flight
 from app.desk.desk import Desk, Hear, Message
 from app.desk.files import Done
+from app.desk.holding.kept_desk import keep_colours
 from app.desk.known import Known, known_after
 from app.desk.moving import independence
 from app.desk.outside import clipboard
@@ -55,6 +56,7 @@ def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
     desk.stack.follow(desk.post, scene.layers, scene.serial)
     recovery_work.offer(desk, scene)
     follow_opened(desk)
+    keep_colours(desk)
 
 
 def _done(desk: Desk, done: Done, _now: float) -> None:

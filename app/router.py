@@ -14,7 +14,7 @@ from app.desk.desk import Desk
 from app.input.events import BACK, FORWARD, LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord
 from app.panels.layout import Layout
-from app.tools.asking_gestures import ask_here, mark, pick, swap
+from app.tools.asking_gestures import ask_here, mark, pick, pick_or_pop_up, swap
 from app.tools.gesture import Gesture
 from app.tools.land_gestures import look_around, on_the_land, orbit
 from app.tools.size_gestures import drag_size
@@ -121,7 +121,9 @@ class Router:
             begin = zoom if ctrl else turn if self.desk.pointer.shift else pan
         elif self.layout.dialogs.open:  # one that lies aside: the view moves under it, and nothing else
             begin = zoom if ctrl else pan
-        elif event.button == RIGHT or ctrl:
+        elif event.button == RIGHT:
+            begin = pick_or_pop_up
+        elif ctrl:
             begin = pick
         elif self.desk.match.marking is not None and self.desk.strip == "match":
             begin = mark

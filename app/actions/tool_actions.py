@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.actions.action import Action as A
-from app.actions.action import Check, always, to_now
+from app.actions.action import Check, always, idle, to_now
 from app.desk.desk import Desk
 from app.desk.filling.fill_state import all_gone_round, unbounded
+from app.desk.holding.desk_record import MOST_FAVOURITES
+from app.desk.holding.favourites import has_favourite, take_favourite
 from app.desk.moving.floating import let_go
 from engine.studio.requests import Do
 
@@ -70,6 +72,18 @@ def _drawing(tool: str, title: str, key: str, hint: str) -> A:
     return A(title, "Tools", (key,), f"{hint}, drawn by the brush", _tool(tool), always, _is(tool))
 
 
+def _favourite(digit: int) -> A:
+    hint, key = "Paint with this favourite; stars in the list of brushes make them", f"Ctrl+{digit}"
+    return A(
+        f"Favourite {digit}", "Tools/Favourites", (key,), hint, lambda desk: take_favourite(desk, digit),
+        lambda desk: idle(desk) and has_favourite(desk, digit),
+    )  # fmt: skip
+
+
+def _pop_up(desk: Desk) -> None:
+    desk.hand_sight.palette_at = desk.pointer.x, desk.pointer.y
+
+
 _SHAPES = {
     "line": ("Draw a line", "U", "A straight line"),
     "polyline": ("Draw a polyline", "Shift+U", "A line with corners"),
@@ -99,5 +113,9 @@ TOOL_ACTIONS: dict[str, A] = {
     **{f"draw_{name}": _drawing(f"draw_{name}", *row) for name, row in _SHAPES.items()},
     "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.hand.resize(1 / 1.15)),
     "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.hand.resize(1.15)),
+    **{f"favourite_{digit}": _favourite(digit) for digit in range(1, MOST_FAVOURITES + 1)},
+    "pop_up": A(
+        "Pop-up palette", "Tools", ("K",), "Favourites, colours and zoom under the pointer (right click)", _pop_up, idle
+    ),
     "escape": A("Back to the brush", "Tools", ("Escape",), "Stop what is going on; back to the brush", _escape),
 }  # fmt: skip

@@ -20,6 +20,7 @@ from app.desk.filling.fill_state import FillState
 from app.desk.framing.frame_state import FrameState
 from app.desk.guides.guide_state import GuideState
 from app.desk.hand import Hand, radius_of
+from app.desk.holding.desk_record import KeptDesk
 from app.desk.holding.hand_sight import HandSight
 from app.desk.known import Known
 from app.desk.lab_state import LabState
@@ -110,6 +111,7 @@ class Desk:
     scale: float = 1.0
     work: Callable[[FileWork], None] = _nowhere  # with files, on their own thread
     hand: Hand = field(default_factory=Hand)
+    kept: KeptDesk = KeptDesk()  # noqa: RUF009  # it never changes
     hand_sight: HandSight = field(default_factory=HandSight)
     known: Known = field(default_factory=Known)
     painting: bool = False

@@ -10,6 +10,8 @@ from app.desk.desk import Desk, FileWork
 from app.desk.examples import example_state
 from app.desk.examples.example_state import Entry
 from app.desk.examples.example_use import gather
+from app.desk.holding.desk_record import KeptDesk
+from app.desk.holding.kept_desk import kept_file, read_kept, restore
 from app.desk.notices import Notice
 from app.desk.presets import Paper, Preset
 
@@ -20,6 +22,7 @@ class Stock(NamedTuple):
     presets: tuple[Preset, ...]
     papers: tuple[Paper, ...]
     examples: tuple[Entry, ...]
+    kept: KeptDesk
     faults: tuple[str, ...]
 
 
@@ -35,12 +38,15 @@ class TakeStock(FileWork):
         given, bad = example_state.load_examples(example_state.bundled_folder(), False)
         kept, lost = example_state.load_examples(example_state.own_folder(), True)
         examples = example_state.arranged([*given, *kept])
-        return Stock((*bundled, *own), tuple(papers), tuple(examples), (*faults, *more, *torn, *bad, *lost))
+        desk_kept, fault = read_kept(kept_file())
+        told = (*faults, *more, *torn, *bad, *lost, *([fault] if fault else ()))
+        return Stock((*bundled, *own), tuple(papers), tuple(examples), desk_kept, told)
 
     def arrive(self, desk: Desk, found: Stock) -> None:
         """Puts what was found on the desk."""
         desk.learn(presets=found.presets or (presets.DEFAULT,), papers=found.papers)
         desk.examples.entries = found.examples
+        restore(desk, found.kept)
         gather(desk)
         _first(desk)
         if found.faults:
@@ -57,7 +63,8 @@ def _kept(faults: tuple[str, ...]) -> Notice:
     """Returns what is told of files that are at fault: one line of it, or how many there are."""
     if len(faults) == 1:
         return Notice(f"{faults[0]}; the file is kept as it is")
-    return Notice(f"{len(faults)} files of brushes and examples are damaged; they are kept as they are", lines=faults)
+    told = f"{len(faults)} files of brushes, examples and the desk are damaged; they are kept as they are"
+    return Notice(told, lines=faults)
 
 
 def _first(desk: Desk) -> None:

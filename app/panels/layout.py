@@ -10,6 +10,7 @@ from app.desk.outside import pictured
 from app.faults.fault_guard import FaultGuard
 from app.panels import menu_bar, status
 from app.panels.brush.brush_panel import BrushPanel
+from app.panels.brush.pop_up import PopUp
 from app.panels.colour.colour_panel import ColourPanel
 from app.panels.colour.ink_mixer import InkPanel
 from app.panels.dialogs.dialogs import Dialogs
@@ -42,7 +43,7 @@ class Layout:
         self._guard = guard
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
         self.dialogs, self.strip, self.place_field = Dialogs(), StripPanel(), PlaceField()
-        self.move_bar, self.guide_bar = MoveBar(), GuideBar()
+        self.move_bar, self.guide_bar, self.pop_up = MoveBar(), GuideBar(), PopUp()
         self._covered: list[tuple[float, float, float, float]] = []
         self._popup, self._strip = False, ""
 
@@ -97,6 +98,8 @@ class Layout:
         self._bar(desk, (left, top))
         with self._guard.spare_drawing("drawing a dialog"):
             self.dialogs.draw(desk)
+        with self._guard.spare_drawing("drawing the pop-up palette"):
+            self.pop_up.draw(desk)
         with self._guard.spare_drawing("drawing the field for a place"):
             self.place_field.draw(desk)
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from app.canvas.view import Place
 from app.desk.desk import Desk
 from app.desk.examples import example_use
@@ -10,6 +12,8 @@ from app.input.events import PenEvent
 from app.tools.gesture import Gesture
 from engine.numeric.address import Rect
 from engine.studio.requests import Pick
+
+_CLICK = 6.0  # points that a hand moves as it clicks, at most
 
 
 def pick(desk: Desk, first: PenEvent) -> Gesture:
@@ -22,6 +26,17 @@ def pick(desk: Desk, first: PenEvent) -> Gesture:
         if event.kind == "up":
             return
         event = yield
+
+
+def pick_or_pop_up(desk: Desk, first: PenEvent) -> Gesture:
+    """Takes the colour under the pointer where it is dragged; a click opens the palette there."""
+    event = first
+    while math.hypot(event.x - first.x, event.y - first.y) < _CLICK * desk.scale:
+        if event.kind == "up":
+            desk.hand_sight.palette_at = first.x, first.y
+            return
+        event = yield
+    yield from pick(desk, event)
 
 
 def mark(desk: Desk, first: PenEvent) -> Gesture:

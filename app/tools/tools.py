@@ -68,7 +68,7 @@ TOOLS: dict[str, Tool] = {
     "zoom": Tool("Zoom", icons.ZOOM, zoom, "Drag to zoom, click to go one level deeper (the wheel with any tool)"),
     "turn": Tool("Turn", icons.ROTATE, turn, "Drag to turn the view; the painting itself stays as it is"),
     "pick": Tool(
-        "Pick colour", icons.PICK, pick, "Take a colour from the picture (Ctrl or the right button with any tool)"
+        "Pick colour", icons.PICK, pick, "Take a colour from the picture (Ctrl, or dragging with the right button)"
     ),
     "rectangle": Tool("Rectangle", icons.SELECT_BOX, rectangle, f"Drag to select a rectangle{_JOINING}"),
     "ellipse": Tool("Ellipse", icons.SELECT_ROUND, ellipse, f"Drag to select an ellipse{_JOINING}"),

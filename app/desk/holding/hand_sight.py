@@ -10,7 +10,8 @@ from app.canvas.view import Place
 @dataclass(slots=True)
 class HandSight:
     """`brush_at`: where the brush is while it trails the pen on a rope; `ghost`: where its dab is shown while its size
-    is dragged, framebuffer pixels."""
+    is dragged; `palette_at`: where the pop-up palette is to be opened; framebuffer pixels."""
 
     brush_at: Place | None = None
     ghost: tuple[float, float] | None = None
+    palette_at: tuple[float, float] | None = None

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from app import icons, theme
+from app import icons
 from app.desk import presets
-from app.desk.desk import Desk, FileWork
+from app.desk.desk import Desk
 from app.desk.holding.taking import take_preset
 from app.desk.presets import Preset
+from app.panels.brush.preset_picture import THUMB
+from app.panels.brush.preset_tile import draw_tile, tall_of
 from app.panels.controls import widgets as w
 from engine.studio.requests import Prepare, Swatch
 
-THUMB = (104, 44)  # of a thumbnail, points
 ACROSS = 2  # in the panel
 ACROSS_ALL = 8  # of all at once, at most
 LABELS = 94  # width of the names of groups beside all of them, points
@@ -54,7 +54,7 @@ class BrushList:
         gap, em = 5 * desk.scale, imgui.get_font_size()
         found = presets.found(desk.known.presets, self._group, self._find)
         wide = (imgui.get_content_region_avail().x - 12 * desk.scale - gap * (ACROSS - 1)) / ACROSS
-        tall = _tall(desk, wide)
+        tall = tall_of(desk, wide)
         room = imgui.get_window_height() - imgui.get_cursor_pos().y - below - em
         everything = _height(presets.found(desk.known.presets, EVERY, ""), tall + gap, em + gap)
         high = max(room, 2.6 * tall)  # the same for every group
@@ -116,7 +116,7 @@ class BrushList:
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         for group, members in presets.found(desk.known.presets, EVERY, ""):
             top = imgui.get_cursor_pos().y
-            imgui.set_cursor_pos_y(top + (_tall(desk, wide) - em) / 2)
+            imgui.set_cursor_pos_y(top + (tall_of(desk, wide) - em) / 2)
             imgui.text_disabled(group)
             imgui.set_cursor_pos_y(top)
             for i, preset in enumerate(members):
@@ -131,29 +131,11 @@ class BrushList:
 
     def _preset(self, desk: Desk, preset: Preset, wide: float) -> bool:
         """Returns one brush; whether it was taken."""
-        corner, tall = imgui.get_cursor_screen_pos(), _tall(desk, wide)
-        taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
-        w.named(preset.name)
+        taken, seen = draw_tile(desk, preset, wide)
         if taken:
             hold(desk, preset)
-        if not imgui.is_item_visible():  # most are scrolled away
-            return taken
-        self._ask(desk, preset)
-        hovered, chosen = imgui.is_item_hovered(), desk.hand.preset == preset.name
-        own = preset.path is not None and preset.path.parent == presets.own_folder()
-        w.tooltip(f"{preset.name}\nShift keeps the present size" + ("\nRight click to delete it" if own else ""))
-        if own:
-            _deletes(desk, preset)
-        painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
-        grey = theme.ACCENT_SOFT if chosen else (0.21,) * 3 if hovered else (0.19,) * 3
-        painter.add_rect_filled(corner, end, theme.packed(grey), 4 * desk.scale)
-        picture = desk.pictures.get(f"preset {preset.name}")
-        bottom, inset = corner.y + wide * THUMB[1] / THUMB[0], 2 * desk.scale
-        if picture is not None:
-            inner = ImVec2(corner.x + inset, corner.y + inset), ImVec2(end.x - inset, bottom)
-            zero, one, white = ImVec2(0, 0), ImVec2(1, 1), theme.packed((1.0, 1.0, 1.0))
-            painter.add_image_rounded(picture, *inner, zero, one, white, 3 * desk.scale)
-        _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.TEXT if chosen else (0.72,) * 3)
+        if seen:
+            self._ask(desk, preset)
         return taken
 
 
@@ -166,49 +148,6 @@ def _picture(desk: Desk, preset: Preset) -> Swatch:
 def hold(desk: Desk, preset: Preset) -> None:
     """Paints with a brush from now on; Shift keeps the size."""
     take_preset(desk, preset, imgui.get_io().key_shift)
-
-
-def _deletes(desk: Desk, preset: Preset) -> None:
-    """Draws the menu of a brush of the artist's own."""
-    if not imgui.begin_popup_context_item(f"own {preset.name}"):
-        return
-    deleted = imgui.selectable(f"Delete “{preset.name}”", False)[0]
-    w.named("Delete")
-    if deleted:
-        desk.work(_Delete(preset))
-    imgui.end_popup()
-
-
-@dataclass(frozen=True, slots=True)
-class _Delete(FileWork):
-    preset: Preset
-
-    def carry_out(self) -> None:
-        presets.delete(self.preset)
-
-    def arrive(self, desk: Desk, found: None) -> None:
-        desk.learn(presets=tuple(one for one in desk.known.presets if one is not self.preset))
-        desk.say(f"Deleted the brush “{self.preset.name}”")
-
-    def fail(self, desk: Desk, fault: str) -> None:
-        desk.say(f"The brush was not deleted: {fault}", bad=True)
-
-
-def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, float]) -> None:
-    """Draws a brush's name below its picture; a long one a little smaller."""
-    painter, size = imgui.get_window_draw_list(), imgui.get_font_size()
-    inset = 0.35 * size
-    wide = imgui.calc_text_size(name).x
-    fits = max(0.8, min(1.0, (end.x - corner.x - 1.2 * inset) / max(wide, 1.0)))
-    at = ImVec2(corner.x + (inset if fits == 1.0 else 0.6 * inset), corner.y + size * (1 - fits) / 2)
-    painter.push_clip_rect(corner, end, True)
-    painter.add_text(imgui.get_font(), size * fits, at, theme.packed(grey), name)
-    painter.pop_clip_rect()
-
-
-def _tall(desk: Desk, wide: float) -> float:
-    """Returns the height of a brush `wide` across: its picture and its name."""
-    return wide * THUMB[1] / THUMB[0] + imgui.get_font_size() + 4 * desk.scale
 
 
 def _height(listed: Sequence[tuple[str, Sequence[Preset]]], row: float, heading: float) -> float:

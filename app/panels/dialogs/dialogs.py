@@ -247,7 +247,8 @@ class Keys:
             ("Space + drag, middle button", "Pan"),
             ("Shift + Space + drag", "Turn the view"),
             ("Ctrl + Space + drag", "Zoom"),
-            ("Ctrl + click, right button", "Pick a colour"),
+            ("Ctrl + click, right button dragged", "Pick a colour"),
+            ("Right click, a pen's button", "Pop-up palette: favourites, colours, zoom"),
             ("Alt + drag, with the brush", "Its radius sideways, its hardness up and down"),
             ("Shift + drag or click", "A straight line"),
         ]

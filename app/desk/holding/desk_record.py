@@ -1,0 +1,16 @@
+"""The record of what a desk keeps between sessions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+MOST_FAVOURITES = 9  # as many as there are digits to press
+
+
+@dataclass(frozen=True, slots=True)
+class KeptDesk:
+    """`favourites`: names of brushes, in the order of their keys; `colours`: those painted with, #rrggbb, the last one
+    first."""
+
+    favourites: tuple[str, ...] = ("Pencil", "Ink pen", "Gouache", "Soft airbrush", "Eraser")
+    colours: tuple[str, ...] = ()

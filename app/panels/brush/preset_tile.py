@@ -1,0 +1,108 @@
+"""A brush in the list: its picture, its name, its star, and the menu of those that are the artist's own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.desk import presets
+from app.desk.desk import Desk, FileWork
+from app.desk.holding.favourites import digit_of, star
+from app.desk.presets import Preset
+from app.panels.brush.preset_picture import THUMB, draw_stroke
+from app.panels.controls import widgets as w
+
+
+def tall_of(desk: Desk, wide: float) -> float:
+    """Returns the height of a brush `wide` across: its picture and its name."""
+    return wide * THUMB[1] / THUMB[0] + imgui.get_font_size() + 4 * desk.scale
+
+
+def draw_tile(desk: Desk, preset: Preset, wide: float) -> tuple[bool, bool]:
+    """Draws one; tells whether it was taken, and whether it is in sight."""
+    corner, tall = imgui.get_cursor_screen_pos(), tall_of(desk, wide)
+    taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
+    w.named(preset.name)
+    if not imgui.is_item_visible():  # most are scrolled away
+        return taken, False
+    hovered, chosen = imgui.is_item_hovered(), desk.hand.preset == preset.name
+    digit, spot = digit_of(desk, preset), _star_spot(desk, corner, wide)
+    if taken and _within(spot):
+        star(desk, preset)
+        taken = False
+    own = preset.path is not None and preset.path.parent == presets.own_folder()
+    keys = f"  (Ctrl+{digit})" if digit else ""
+    told = "\nRight click to delete it" if own else ""
+    w.tooltip(f"{preset.name}{keys}\nShift keeps the present size; the star makes it a favourite{told}")
+    if own:
+        _deletes(desk, preset)
+    painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
+    grey = theme.ACCENT_SOFT if chosen else (0.21,) * 3 if hovered else (0.19,) * 3
+    painter.add_rect_filled(corner, end, theme.packed(grey), 4 * desk.scale)
+    bottom = corner.y + wide * THUMB[1] / THUMB[0]
+    draw_stroke(desk, preset, corner, ImVec2(end.x, bottom + 2 * desk.scale))
+    if digit or hovered:
+        _star(desk, spot, digit)
+    _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.TEXT if chosen else (0.72,) * 3)
+    return taken, True
+
+
+def _star_spot(desk: Desk, corner: ImVec2, wide: float) -> tuple[float, float, float]:
+    """Returns where the star of a preset lies, and how large it is: left, top, side."""
+    side = imgui.get_font_size() * 1.25
+    return corner.x + wide - side - 2 * desk.scale, corner.y + 2 * desk.scale, side
+
+
+def _within(spot: tuple[float, float, float]) -> bool:
+    at, (left, top, side) = imgui.get_io().mouse_pos, spot
+    return left <= at.x < left + side and top <= at.y < top + side
+
+
+def _star(desk: Desk, spot: tuple[float, float, float], digit: int) -> None:
+    """Draws the star of a favourite, with its digit; that of another brush, which is pointed at, faintly."""
+    (left, top, side), painter, size = spot, imgui.get_window_draw_list(), imgui.get_font_size()
+    grey = theme.ACCENT if digit else (0.55,) * 3 if _within(spot) else (0.75,) * 3
+    painter.add_text(ImVec2(left + (side - size) / 2, top + (side - size) / 2), theme.packed(grey), icons.STAR)
+    if digit:
+        at = ImVec2(left + (side - imgui.calc_text_size(str(digit)).x * 0.7) / 2, top + 0.3 * size)
+        painter.add_text(imgui.get_font(), size * 0.7, at, theme.packed((1.0, 1.0, 1.0)), str(digit))
+
+
+def _deletes(desk: Desk, preset: Preset) -> None:
+    """Draws the menu of a brush of the artist's own."""
+    if not imgui.begin_popup_context_item(f"own {preset.name}"):
+        return
+    deleted = imgui.selectable(f"Delete “{preset.name}”", False)[0]
+    w.named("Delete")
+    if deleted:
+        desk.work(_Delete(preset))
+    imgui.end_popup()
+
+
+@dataclass(frozen=True, slots=True)
+class _Delete(FileWork):
+    preset: Preset
+
+    def carry_out(self) -> None:
+        presets.delete(self.preset)
+
+    def arrive(self, desk: Desk, found: None) -> None:
+        desk.learn(presets=tuple(one for one in desk.known.presets if one is not self.preset))
+        desk.say(f"Deleted the brush “{self.preset.name}”")
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        desk.say(f"The brush was not deleted: {fault}", bad=True)
+
+
+def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, float]) -> None:
+    """Draws a brush's name below its picture; a long one a little smaller."""
+    painter, size = imgui.get_window_draw_list(), imgui.get_font_size()
+    inset = 0.35 * size
+    wide = imgui.calc_text_size(name).x
+    fits = max(0.8, min(1.0, (end.x - corner.x - 1.2 * inset) / max(wide, 1.0)))
+    at = ImVec2(corner.x + (inset if fits == 1.0 else 0.6 * inset), corner.y + size * (1 - fits) / 2)
+    painter.push_clip_rect(corner, end, True)
+    painter.add_text(imgui.get_font(), size * fits, at, theme.packed(grey), name)
+    painter.pop_clip_rect()
