@@ -65,7 +65,8 @@ class Like:
 class Fill:
     """Fills a region, or (without `like`) what is selected, or the `whole` layer where it has paint, at `level`, with a
     brush, on a layer (None: the active one), or `onto` its mask.  `open`: even if the region reaches the border of
-    where it is looked for.  `grow`: pixels by which the region of `like` goes beyond its rim."""
+    where it is looked for.  `grow`: pixels by which the region of `like` goes beyond its rim, but not beyond the line
+    that it lies within."""
 
     brush: Brush
     like: Like | None = None
@@ -151,8 +152,8 @@ def read_fill(members: Fields) -> Fill:
     if whole and like is not None:
         raise members.fault("whole", "false beside like")
     grow = members.number("grow", 0.0, lo=0.0, hi=WIDEST_GROWN)
-    if grow and (like is None or like.within is not None):
-        raise members.fault("grow", "0 but beside like, without within")
+    if grow and (like is None or like.regions == "line"):
+        raise members.fault("grow", '0 but beside like, and beside regions "line"')
     return Fill(
         settings.from_json(members.take("brush", {}), members.at("brush")),
         like,

@@ -32,7 +32,7 @@ from engine.painting.value import Painting, Refusal, layer_for
 from engine.strokes.all_painted import all_painted
 from engine.strokes.bed import Change, lies_in
 from engine.strokes.example_stroke import change_of, check_alpha, grid_of, kind_of
-from engine.strokes.likeness import alike, alike_around, taken, thinned
+from engine.strokes.likeness import alike, alike_around, kept_within, taken, thinned
 from engine.strokes.mask_painting import edit_of, greys_of, insist_on_paint, sheet_for
 from engine.strokes.paint_stroke import LiveStroke
 from engine.strokes.scenery import reader
@@ -115,8 +115,12 @@ def _plain_region(painting: Painting, command: Fill, cache: TileCache | None) ->
 
 
 def _beyond(painting: Painting, command: Fill, region: Coverage) -> Coverage:
-    """Returns a region, grown by as many pixels as the fill says: under the soft edges of lines."""
-    return rim_moved(region, command.grow, 0.0, painting.grid, "fill") if command.grow else region
+    """Returns a region, grown by as many pixels as the fill says: under the soft edges of lines, and not beyond the
+    line that it lies within."""
+    if not command.grow:
+        return region
+    grown = rim_moved(region, command.grow, 0.0, painting.grid, "fill")
+    return grown if command.like is None else kept_within(command.like, grown)
 
 
 def opacity_of(brush: Brush) -> float:

@@ -61,8 +61,7 @@ def alike_around(painting: Painting, like: Like, cell: Rect, cache: TileCache | 
 
 def _enclosed(like: Like, rect: Rect, picture: np.ndarray, what: str) -> flood.Region:
     """Returns the regions of a picture of a rectangle that lie wholly within the line.  Refusal if there is none."""
-    line = outlined(like.level, like.at, np.array(like.within), f"{what}.like.within")
-    inside = raster(line, rect) >= np.float32(0.5)
+    inside = _inside(like, rect, what)
     if like.regions == "all":
         found = enclosed_all(picture, inside, like.tolerance)
     else:
@@ -73,6 +72,20 @@ def _enclosed(like: Like, rect: Rect, picture: np.ndarray, what: str) -> flood.R
     if not found.covered.any():
         raise Unclosed(f"{what}: found nothing closed that lies within the line, expected a region or more")
     return found
+
+
+def _inside(like: Like, rect: Rect, what: str) -> np.ndarray:
+    """Returns the pixels of a rectangle of which the line goes round a half at least: bool (h, w)."""
+    line = outlined(like.level, like.at, np.array(like.within), f"{what}.like.within")
+    return raster(line, rect) >= np.float32(0.5)
+
+
+def kept_within(like: Like, region: Coverage) -> Coverage:
+    """Returns what of a region lies within the line that is told, all of it where there is none."""
+    if like.within is None:
+        return region
+    rect = region.rect
+    return tiled(region.level, rect, np.where(_inside(like, rect, "fill"), raster(region, rect), np.float32(0.0)))
 
 
 def _told(rect: Rect) -> str:

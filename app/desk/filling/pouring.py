@@ -44,8 +44,9 @@ def pour(desk: Desk, like: Like | None, eraser: bool = False) -> None:
 
 
 def grown_by(desk: Desk, like: Like) -> float:
-    """Returns by how many pixels of its level a region is filled beyond its rim, as the panel says."""
-    return 0.0 if like.within is not None else round(desk.filling.fill_grown / desk.view.scale(like.level), 2)
+    """Returns by how many pixels of its level a region is filled beyond its rim, as the panel says: a line's own does
+    not grow."""
+    return 0.0 if like.regions == "line" else round(desk.filling.fill_grown / desk.view.scale(like.level), 2)
 
 
 def outruns(desk: Desk, like: Like) -> bool:

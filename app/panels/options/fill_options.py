@@ -47,7 +47,7 @@ def ways(desk: Desk) -> None:
 
 def spaced() -> None:
     """Goes on in the same line, for something else."""
-    imgui.same_line(0, 0.65 * imgui.get_font_size())
+    imgui.same_line(0, 0.4 * imgui.get_font_size())
 
 
 def slid(label: str, value: float, most: float, form: str, hint: str, width: float = _SLIDER) -> float:
@@ -64,8 +64,7 @@ def _region(desk: Desk) -> None:
     ways(desk)
     likeness(desk)
     spaced()
-    state, hint = desk.filling, "Under soft lines, by so much: no pale ring is left at their edges"
-    state.fill_grown = round(slid("Grow", state.fill_grown, _MOST_GROWN, "%.0f px", hint, _NARROW))
+    _growing(desk)
     spaced()
     desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
 
@@ -79,8 +78,18 @@ def _within(desk: Desk) -> None:
     spaced()
     hint = "Which regions within are filled"
     state.regions = w.choice("which", state.regions, _REGIONS, hint, 5.6 * em, _WHICH) or state.regions
+    if state.regions == "line":
+        return
     spaced()
     likeness(desk)
+    spaced()
+    _growing(desk)
+
+
+def _growing(desk: Desk) -> None:
+    """Draws by how much a fill goes beyond its region's rim."""
+    state, hint = desk.filling, "Under soft lines, by so much: no pale ring is left at their edges"
+    state.fill_grown = round(slid("Grow", state.fill_grown, _MOST_GROWN, "%.0f px", hint, _NARROW))
 
 
 def _wand(desk: Desk) -> None:

@@ -58,14 +58,16 @@ def test_it_equals_filling_each_region_that_lies_within(cells, open_one):
     corners=st.lists(st.tuples(st.integers(0, 156), st.integers(0, 116)), min_size=3, max_size=7),
     regions=st.sampled_from(["alike", "empty", "all", "line"]),
     gap=st.sampled_from([0, 9]),
+    grow=st.sampled_from([0, 5.5]),
 )
 @settings(max_examples=12, deadline=None)
-def test_nothing_changes_outside_of_the_line(corners, regions, gap):
+def test_nothing_changes_outside_of_the_line(corners, regions, gap, grow):
     lines = [square(x, y) for x, y in CELLS[::2]]
     before, session = seen(done(*lines).painting), done(*lines)
     within = [[x - 4, y - 4] for x, y in corners]
     try:
-        after = filled(session, fill(within=within, regions=regions, gap=gap))
+        grown = grow if regions != "line" else 0
+        after = filled(session, {**fill(within=within, regions=regions, gap=gap), "grow": grown})
     except Refusal:
         return
     told = done({"do": "select", "outline": [list(at) for at in corners]}).painting.selection
@@ -93,6 +95,18 @@ def test_all_takes_the_lines_and_alike_those_of_one_colour():
     assert (everything[:, 30, 30] == everything[:, 20, 30]).all()
     assert (everything[:, 30, 30] == everything[:, 70, 90]).all()
     assert everything[3, 8, 8] == 0.0
+
+
+@pytest.mark.parametrize("regions", ["alike", "empty", "all"])
+def test_it_goes_under_the_lines_as_far_as_it_is_told_to_grow(regions):
+    """Both ends of what a row of pixels through the cell shows of it lie so far farther out."""
+    colours = [filled(done(square(70, 50)), {**fill(regions=regions), "grow": grow})[:, 60, :] for grow in (0, 3)]
+    base = seen(done(square(70, 50)).painting)[:, 60, :]
+    kept, grown = ((base != row).any(axis=0) for row in colours)
+    assert kept[80]
+    assert grown[80]
+    assert np.flatnonzero(grown).min() + 3 == np.flatnonzero(kept).min()
+    assert np.flatnonzero(grown).max() - 3 == np.flatnonzero(kept).max()
 
 
 def test_all_that_the_line_goes_round_is_filled_on_empty_ground_as_if_it_were_selected():

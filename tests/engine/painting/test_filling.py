@@ -328,10 +328,10 @@ def test_a_fill_that_grows_goes_under_the_line_around_it_and_not_beyond_that():
     assert far[changed[2.5]].max() < 43.5
 
 
-WITHIN = {"within": [[0, 0], [9, 0], [0, 9]]}
+LINE_ALONE = {"within": [[0, 0], [9, 0], [0, 9]], "regions": "line"}
 
 
-@pytest.mark.parametrize("members", [{"grow": -1}, {"grow": 257}, {"grow": 2, "like": WITHIN}])
-def test_a_fill_cannot_grow_by_less_or_more_or_beyond_a_line_of_its_own(members):
+@pytest.mark.parametrize("members", [{"grow": -1}, {"grow": 257}, {"grow": 2, "like": {"at": [3, 4], **LINE_ALONE}}])
+def test_a_fill_cannot_grow_by_less_or_more_or_beyond_a_line_that_is_all_of_it(members):
     with pytest.raises(FieldError, match="grow"):
         c.parse(fill(**members))
