@@ -10,8 +10,9 @@ from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 
-MASK_BAR_WIDTH = 26.0  # ems
+MASK_BAR_WIDTH = 46.0  # ems
 _NAMED = 11.0  # ems for a name
+_ONCE = "white shows, black hides: here, not in each repeat"
 
 
 def wanted(desk: Desk) -> bool:
@@ -28,6 +29,8 @@ def draw(desk: Desk) -> None:
     imgui.text_colored(theme.vec(theme.ACCENT), f"{icons.MASK}  Mask of {ended(row.name, _NAMED * em)}")
     w.named("mask bar")
     w.tooltip("Brush, fills and gradients go to the mask: white shows, black hides, the eraser hides")
+    imgui.same_line(0, em)
+    imgui.text_disabled("white shows, black hides" if row.wrap is None else _ONCE)
     imgui.same_line(0, em)
     for name, label in (("mask_alone", "Painting" if desk.masks.alone else "Alone"), ("mask_invert", "Invert")):
         if w.text_button(label, actions.tip(name)):

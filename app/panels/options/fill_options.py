@@ -78,9 +78,10 @@ def _within(desk: Desk) -> None:
     spaced()
     hint = "Which regions within are filled"
     state.regions = w.choice("which", state.regions, _REGIONS, hint, 5.6 * em, _WHICH) or state.regions
-    if state.regions == "line":
-        return
     spaced()
+    if state.regions == "line":
+        imgui.text_disabled(_WHICH[-1])
+        return
     likeness(desk)
     spaced()
     _growing(desk)

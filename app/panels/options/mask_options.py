@@ -18,6 +18,8 @@ def draw_mask(desk: Desk) -> None:
     imgui.align_text_to_frame_padding()
     imgui.text_unformatted("Quick mask")
     spaced()
+    imgui.text_disabled("any colour selects, the eraser takes away")
+    spaced()
     if w.swatch("mask tint", state.mask_colour, "The colour over what is not selected", (1.6 * side, side)):
         imgui.open_popup(_POPUP)
     state.mask_colour = w.colour_popup(_POPUP, state.mask_colour) or state.mask_colour

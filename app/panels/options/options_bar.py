@@ -24,10 +24,10 @@ _OF_TOOLS = {
     "fill": Options(48.0, fill_options.draw),
     "enclose": Options(49.0, fill_options.draw),
     "gradient": Options(49.0, fill_options.draw),
-    "wand": Options(33.0, fill_options.draw),
+    "wand": Options(35.5, fill_options.draw),
     FRAME_TOOL: Options(FRAME_OPTIONS_WIDTH, draw_frame_options),
 }
-_MASK = Options(32.0, mask_options.draw_mask)
+_MASK = Options(49.0, mask_options.draw_mask)
 
 
 def options_of(desk: Desk) -> Options | None:

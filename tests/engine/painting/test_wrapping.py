@@ -276,3 +276,14 @@ def test_a_selection_over_too_many_tiles_is_refused_in_a_line():
     session = painted(wrap(Rect.at(0, 0, 16, 16)), {"do": "select", "rect": [0, 0, 0, 900, 900]})
     with pytest.raises(Refusal, match="found one over 3249 tiles of the layer, expected at most 1024"):
         session.do(c.parse(stroke([[5, 5]], radius=2)))
+
+
+def test_the_mask_of_a_layer_that_wraps_bounds_its_repeats_and_is_not_repeated():
+    session = painted(wrap(), stroke([[20, 60], [90, 70]]))
+    beyond = moved(CELL, CELL.width, 0)
+    shown = [seen(session, rect) for rect in (CELL, beyond)]
+    session.do(c.parse({"do": "select", "rect": [0, beyond.x0, beyond.y0, beyond.width, beyond.height]}))
+    session.do(c.parse({"do": "layer", "set": "Layer 1", "mask": True}))
+    assert not seen(session, CELL).any()
+    np.testing.assert_array_equal(seen(session, beyond), shown[1])
+    assert shown[0].any()
