@@ -16,6 +16,7 @@ COMMANDS = {
     "play": "replay a recording without a window",
     "export": "write a painting, or a rectangle of it at any level, as a picture",
     "terrain": "show a painting as land; write its heights as maps and meshes",
+    "ground": "make a painting whose land is a height map",
     "film": "make a film of how a painting was made, or of a flight through it",
     "recover": "list, open or discard paintings that were not closed",
     "info": "tell what a painting holds",

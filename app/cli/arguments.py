@@ -14,6 +14,7 @@ SIDE = 1 << 20  # pixels each way of what is made
 
 MODULES = {  # of commands whose modules have other names
     "export": "export_command",
+    "ground": "landscape.map_as_land",
     "solid": "solid_picture",
     "terrain": "landscape.terrain_command",
 }
@@ -75,7 +76,8 @@ def joined_options(words: list[str]) -> list[str]:
     for word in words:
         if (
             out
-            and out[-1] in ("--rect", "--origin", "--at", "--flight", "--camera", "--sun", "--turn", "--light")
+            and out[-1]
+            in ("--rect", "--origin", "--at", "--flight", "--camera", "--sun", "--turn", "--light", "--range")
             and _RECTANGLE.fullmatch(word)
         ):
             out[-1] += f"={word}"

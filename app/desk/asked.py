@@ -8,6 +8,7 @@ from pathlib import Path
 
 from app.canvas.view import Place
 from app.desk.known import Known
+from app.desk.outside.found_map import FoundMap
 from engine.light.light import Light
 from engine.painting.commands import Command
 from engine.painting.layer_commands import BakePlacement
@@ -47,7 +48,7 @@ class Asked:
     `export_light`: in which light; `texture`: a name under which one is being made, which joins the ink when the
     painting has it; `merge`: what merges layers once that is told, ink going no finer than `merge_level`; `bake`: what
     makes paint of a placement and loses detail; `film`: what is chosen of the film that is asked for; `bringing`: a
-    picture that was given to the painting, and to which place of the canvas."""
+    picture that was given to the painting, and to which place of the canvas; `ground`: a map that is to be laid."""
 
     dialog: str = ""
     shown: str = ""
@@ -67,6 +68,7 @@ class Asked:
     bake_loses: tuple[bool, bool] = (True, False)  # fine detail, and how thick its paint is
     film: FilmState = field(default_factory=FilmState)
     bringing: tuple[Path, Place] | None = None
+    ground: FoundMap | None = None
 
     def show(self, dialog: str) -> None:
         """Opens a dialog by its name."""

@@ -16,6 +16,7 @@ from engine.studio.results import Picture
 _MOST = 100_000_000  # pixels of a picture that is made small
 MOST_BYTES = 4 << 20  # of the small picture in a painting
 PAPER, FIELD = (244, 244, 244, 255), (29, 29, 29, 255)  # sRGB: below pictures with holes, and around them
+OF_HEIGHTS = (".exr",)  # files of heights
 PAINTING, PHOTOSHOP, PICTURES = ".ora", (".psd", ".psb"), (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 
 

@@ -30,9 +30,12 @@ TAGS = {
 }  # fmt: skip
 # Field types that are kept: BYTE, SHORT, LONG, UNDEFINED, IFD, LONG8.
 WHOLE_NUMBERS = {1: "B", 3: "H", 4: "I", 7: "B", 13: "I", 16: "Q"}
+_KINDS = ("u1", "u2", "u4", "i1", "i2", "i4", "f2", "f4", "f8")
 MAX_TAGS = 4096
 NONE, DEFLATE = 1, (8, 32946)
 UNSIGNED = 1
+_LETTERS = {UNSIGNED: "u", 2: "i", 3: "f"}  # of the formats of samples
+_FLOAT_PREDICTOR = 3  # bytes by significance, then differences
 ASSOCIATED, UNASSOCIATED = 1, 2
 
 
@@ -85,6 +88,25 @@ class Layout:
             and colours <= self.samples <= colours + 1
             and self.one("PlanarConfiguration", 1) == 1
             and self.one("Predictor", 1) in (1, 2)
+            and self.one("Compression", NONE) in (NONE, *DEFLATE)
+        )
+
+    @property
+    def kind(self) -> np.dtype[np.generic] | None:
+        """Gives what a sample is, in this machine's byte order; None for what is none of NumPy's."""
+        letter = _LETTERS.get(self.one("SampleFormat", UNSIGNED), "")
+        name = f"{letter}{self.bits[0] // 8}"
+        alike = len(set(self.bits)) == 1 and self.bits[0] % 8 == 0
+        return np.dtype(name) if alike and name in _KINDS else None
+
+    @property
+    def one_channel(self) -> bool:
+        """Tells whether `read_channel` can decode it: numbers of any kind, one for each pixel."""
+        predictor = self.one("Predictor", 1)
+        return (
+            self.kind is not None
+            and self.samples == 1
+            and predictor in ((1, _FLOAT_PREDICTOR) if self.kind.kind == "f" else (1, 2))
             and self.one("Compression", NONE) in (NONE, *DEFLATE)
         )
 
@@ -167,6 +189,19 @@ def read_tiff(file: BinaryIO, layout: Layout, progress: Callable[[float], None] 
     return image
 
 
+def read_channel(file: BinaryIO, layout: Layout) -> np.ndarray:
+    """Returns the numbers of a picture of one channel, of its own kind: (height, width), as stored.
+
+    `layout.one_channel` must hold.  FileError as `read_tiff`.
+    """
+    width, height = layout.size
+    out = np.empty((height, width), layout.kind)
+    for (top, left), block in _blocks(file, layout):
+        place = out[top : top + len(block), left : left + block.shape[1]]
+        place[...] = block[: len(place), : place.shape[1], 0]
+    return out
+
+
 def _blocks(file: BinaryIO, layout: Layout) -> Iterator[tuple[tuple[int, int], np.ndarray]]:
     """(top, left) and samples (rows, columns, samples) of each strip or tile."""
     width, height = layout.size
@@ -194,7 +229,8 @@ def _blocks(file: BinaryIO, layout: Layout) -> Iterator[tuple[tuple[int, int], n
 
 def _block(file: BinaryIO, count: int, layout: Layout, form: tuple[int, int, str]) -> np.ndarray:
     rows, across, where = form
-    kept = np.dtype(np.uint8 if layout.bits[0] == 8 else np.uint16)
+    kept = layout.kind
+    assert kept is not None
     raw = np.empty(rows * across * layout.samples * kept.itemsize, np.uint8)
     pieces = _pieces(file, count)
     try:
@@ -208,7 +244,14 @@ def _block(file: BinaryIO, count: int, layout: Layout, form: tuple[int, int, str
         raise FileError(layout.name, f"{where}: damaged ({error})") from error
     if filled != raw.size:
         raise FileError(layout.name, f"{where}: found {filled} bytes of pixels, expected {raw.size}")
-    block = raw.view(f"{layout.order}u{kept.itemsize}").astype(kept).reshape(rows, across, layout.samples)
+    if layout.one("Predictor", 1) == _FLOAT_PREDICTOR:
+        bands = np.cumsum(raw.reshape(rows, -1), axis=1, dtype=np.uint8).reshape(rows, kept.itemsize, across)
+        return np.ascontiguousarray(bands.swapaxes(1, 2)).view(kept.newbyteorder(">")).astype(kept)
+    block = (
+        raw.view(kept.newbyteorder("<" if layout.order == "<" else ">"))
+        .astype(kept)
+        .reshape(rows, across, layout.samples)
+    )
     if layout.one("Predictor", 1) == 2:
         np.cumsum(block, axis=1, dtype=kept, out=block)
     return block

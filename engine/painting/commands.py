@@ -45,6 +45,8 @@ from engine.painting.layering.erode_command import Erode as Erode
 from engine.painting.layering.erode_command import read_erode, write_erode
 from engine.painting.layering.frame_command import SetFrame as SetFrame
 from engine.painting.layering.frame_command import read_frame, write_frame
+from engine.painting.layering.ground_command import LayGround as LayGround
+from engine.painting.layering.ground_command import read_ground, write_ground
 from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
 from engine.painting.layering.paper_command import SetPaper as SetPaper
 from engine.painting.layering.paper_command import read_set_paper, write_set_paper
@@ -142,6 +144,7 @@ Command = (
     | SetFrame
     | SetPaper
     | Erode
+    | LayGround
     | Undo
     | Redo
     | View
@@ -260,6 +263,7 @@ COMMANDS: dict[str, Form] = {
     "frame": Form((SetFrame,), read_frame, write_frame),
     "paper": Form((SetPaper,), read_set_paper, write_set_paper),
     "erode": Form((Erode,), read_erode, write_erode),
+    "ground": Form((LayGround,), read_ground, write_ground),
     "undo": Form((Undo,), _reads_count(Undo), _write_count),
     "redo": Form((Redo,), _reads_count(Redo), _write_count),
     "view": Form((View,), places.read_view, places.write_view),

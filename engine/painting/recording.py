@@ -41,6 +41,7 @@ from engine.painting.layer_commands import LayerCommand
 from engine.painting.layer_commands import version as layer_version
 from engine.painting.layering.erode_command import Erode
 from engine.painting.layering.frame_command import SetFrame
+from engine.painting.layering.ground_command import LayGround, in_full
 from engine.painting.layering.paper_command import SetPaper, read_colour
 from engine.painting.places import BookmarkCommand
 
@@ -53,7 +54,7 @@ TELL_LINES, TELL_BYTES = 4096, 1 << 20  # from one word about how far it is to t
 SIDE_LIMIT = 1 << 40
 DEFAULT_FRAME = Rect(0, 0, 1024, 768)
 BytesRead = Callable[[int], object] | None
-_OF_VERSION_2 = SetFrame | SetPaper | Erode | BookmarkCommand | Fill | Select | GuideCommand
+_OF_VERSION_2 = SetFrame | SetPaper | Erode | LayGround | BookmarkCommand | Fill | Select | GuideCommand
 _BOM = b"\xef\xbb\xbf"
 T = TypeVar("T")
 
@@ -205,14 +206,20 @@ def torn_from(
             elif len(commands) == most:
                 break
             else:
-                commands.append(_told(parse, line, name, number))
-                places.append(number)
+                found = _told(_parsed, line, name, number)[: most - len(commands)]
+                commands += found
+                places += [number] * len(found)
     except FileError as error:
         fault = error
     if header is None:
         expected = 'the header {"inkfall": 1, "frame": [X, Y, W, H], "seed": S}'
         raise fault or FileError(name, f"found no line, expected {expected}")
     return Recording(header, tuple(commands), tuple(places), folder, name), fault
+
+
+def _parsed(value: object) -> list[Command]:
+    """Returns the command that a line tells, or the two that it tells in short."""
+    return [parse(one) for one in in_full(value)]
 
 
 def _told(parsed: Callable[[object], T], line: bytes, name: str, number: int) -> T:

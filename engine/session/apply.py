@@ -25,6 +25,7 @@ from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
 from engine.session.copied_part import lifted, pasted, with_copy, with_cut
 from engine.session.landforms.erosion import worn
+from engine.session.landforms.laid_map import with_ground
 from engine.session.lifting.moved_part import part_moved
 from engine.session.masking import made_paint, mask_for, with_mask_applied
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
@@ -267,6 +268,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.ClearLayer: lambda painting, command, around: cleared(painting, command.name, command.outside),
     c.SetPaper: lambda painting, command, around: painting.on_paper(command.colour),
     c.Erode: worn,
+    c.LayGround: with_ground,
     c.SetFrame: lambda painting, command, around: painting.framed(command.rect),
     c.SelectLayer: _select,
     c.RemoveLayer: _remove,

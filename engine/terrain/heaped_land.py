@@ -28,6 +28,13 @@ def heaped_heights(
     return out
 
 
+def heap_told(heap: Pyramid, level: int, rect: Rect) -> np.ndarray:
+    """Returns what lies in a heap down to level 32, in its unit, as the land has it, which does not round on the way
+    down as the canvas does: float64 (h, w)."""
+    seen = layer_brightness(_sheet(heap), level, rect)
+    return seen.fine + seen.still
+
+
 def _told(
     sheet: Layer, level: int, rect: Rect, about: Pixel | None, steps: list[int], cache: TileCache | None
 ) -> np.ndarray:

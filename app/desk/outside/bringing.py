@@ -10,8 +10,8 @@ from immutables import Map
 from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
 from app.desk.outside.pictured import free_layer_name, free_texture_name
-from app.desk.previews import PAINTING, PHOTOSHOP, PICTURES
-from engine.checks.roles import AS_HEIGHT, REFERENCE
+from app.desk.previews import OF_HEIGHTS, PAINTING, PHOTOSHOP, PICTURES
+from engine.checks.roles import REFERENCE
 from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do
 
@@ -20,8 +20,13 @@ _SLOW = 1 << 24  # pixels of a picture that is seconds on its way to its layer
 
 
 def is_picture(path: Path) -> bool:
-    """Tells whether a file is a picture, by its name."""
-    return path.suffix.lower() in PICTURES
+    """Tells whether a file is a picture, or a map of heights alone, by its name."""
+    return path.suffix.lower() in (*PICTURES, *OF_HEIGHTS)
+
+
+def is_map(path: Path) -> bool:
+    """Tells whether a file holds heights alone, by its name."""
+    return path.suffix.lower() in OF_HEIGHTS
 
 
 def is_layered(path: Path) -> bool:
@@ -79,9 +84,3 @@ def as_reference(desk: Desk, path: Path, place: Place) -> None:
     """Lays a picture likewise, to be looked at and picked from while one paints; it is no part of what is exported."""
     desk.say(f"Bringing in {path.name}")
     desk.work(_Lay(path, place, REFERENCE))
-
-
-def as_ground(desk: Desk, path: Path, place: Place) -> None:
-    """Lays a picture likewise as the layer of heights: its brightness is how high the land lies."""
-    desk.say(f"Bringing in {path.name}")
-    desk.work(_Lay(path, place, AS_HEIGHT))

@@ -8,7 +8,7 @@ from app import icons, theme
 from app.desk import previews
 from app.desk.desk import Desk
 from app.desk.examples import example_work
-from app.desk.outside import bringing, bringing_layers, pictured
+from app.desk.outside import bringing, bringing_layers, ground_maps, pictured
 from app.desk.previews import PAINTING, FileRow
 from app.panels.controls import widgets as w
 from app.tools.filling_gestures import drop_texture
@@ -39,14 +39,15 @@ class BringIn:
 
     def _ways(self, desk: Desk) -> bool:
         wide = imgui.get_font_size() * 15
+        if bringing.is_map(self._path):
+            return self._as_ground(desk, wide) or w.text_button("Cancel", "Leave the painting as it is", width=wide)
         if w.default_button("Layer", "Lay it on a layer of its own, where it was dropped; then move it", width=wide):
             bringing.as_layer(desk, self._path, self._place)
             return True
         if w.text_button("Reference", "To look at and pick from while you paint; never exported", width=wide):
             bringing.as_reference(desk, self._path, self._place)
             return True
-        if w.text_button("Ground", "A height map: its brightness is how high the land lies", width=wide):
-            bringing.as_ground(desk, self._path, self._place)
+        if self._as_ground(desk, wide):
             return True
         if w.text_button("Texture", "Paint with it: it joins the ink", width=wide):
             pictured.from_file(desk, self._path)
@@ -65,6 +66,12 @@ class BringIn:
             desk.guard(lambda: desk.open(path))
             return True
         return w.text_button("Cancel", "Leave the painting as it is", width=wide)
+
+    def _as_ground(self, desk: Desk, wide: float) -> bool:
+        chosen = w.text_button("Ground", "A height map: it becomes ground of the land", width=wide)
+        if chosen:
+            ground_maps.read_map(desk, self._path, self._place)
+        return chosen
 
     def _of_layers(self, desk: Desk) -> bool:
         wide, ours = imgui.get_font_size() * 15, self._path.suffix.lower() == PAINTING

@@ -19,6 +19,7 @@ from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.erode_dialog import ErodeDialog
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.frame_dialog import FrameDialog
+from app.panels.dialogs.ground_dialog import GroundDialog
 from app.panels.dialogs.merge_dialog import MergeDialog
 from app.panels.dialogs.overtaken import OvertakenSave
 from app.panels.dialogs.paper_choice import PaperChoice, PaperDialog
@@ -325,6 +326,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "overtaken": _overtaken,
     "earlier": _earlier,
     "frame": lambda desk: FrameDialog(desk.known.frame),
+    "ground": GroundDialog,
     "erode": lambda desk: ErodeDialog(),
     "paper": lambda desk: PaperDialog(desk.known.paper),
     "merge": lambda desk: MergeDialog(),

@@ -25,7 +25,7 @@ from engine.studio.requests import Export
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
 _PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
-_BROUGHT = (*_PICTURES, ".ora", ".psd", ".psb")
+_BROUGHT = (*_PICTURES, ".exr", ".ora", ".psd", ".psb")
 SAVES = (".ora",)
 FILMS = (".mp4", ".webm", ".webp", ".avif", ".gif", ".png")
 EXPORTS = (".png", ".tif")

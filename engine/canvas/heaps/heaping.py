@@ -60,18 +60,18 @@ class Heaping(Covered):
             bright = np.float32(2.0 * sum(w * a for w, a in zip(LUMINANCE, one.amplitude.tolist(), strict=True)))
             rough += bright * _grey(one.instance.appearance(key.level, key.rect))
             plane = COLOURS + 3 * i
-            add[plane : plane + 3] = _left(_of(old, one.instance), snapped(laid * bright), MOST_INK)
-        add[:_ALPHA] = _left(old.data[0], snapped(laid * rough), MOST_HEAPED)
+            add[plane : plane + 3] = room_left(amplitude_of(old, one.instance), snapped(laid * bright), MOST_INK)
+        add[:_ALPHA] = room_left(old.data[0], snapped(laid * rough), MOST_HEAPED)
         return Stamp(_ALL, add, () if self.ink is None else self.ink.inks)
 
 
-def _left(lies: np.ndarray, laid: np.ndarray, most: float) -> np.ndarray:
+def room_left(lies: np.ndarray, laid: np.ndarray, most: float) -> np.ndarray:
     """Returns what of it there is room for."""
     out: np.ndarray = np.clip(lies + laid, -most, most) - lies
     return out
 
 
-def _of(old: Planes, ink: Instance) -> np.ndarray:
+def amplitude_of(old: Planes, ink: Instance) -> np.ndarray:
     """Returns the amplitude of an ink that lies there."""
     if ink not in old.inks:
         return np.zeros((TILE, TILE), np.float32)

@@ -11,6 +11,7 @@ import numpy as np
 from engine.brush.stamp import Stamp
 from engine.canvas import layers
 from engine.canvas.commit import commit
+from engine.canvas.heaps.heaping import room_left
 from engine.canvas.heaps.heaps import MOST_HEAPED, NO_HEAP, exponent, share
 from engine.canvas.layers import Layer
 from engine.canvas.node_checks import LayerError
@@ -33,27 +34,36 @@ _RIM = 0.08  # of the shorter side, within which nothing becomes all
 
 
 @dataclass(frozen=True, eq=False)
-class _Raised:
-    """An edit that adds `parts` (h, w) of a heap's unit to a rectangle of a level."""
+class OnRect:
+    """What an edit of a heap has that changes a rectangle of a level."""
 
     level: int
     rect: Rect
-    parts: np.ndarray
-    spares_alpha: bool = True
+
+    @property
+    def spares_alpha(self) -> bool:
+        """As `Edit.spares_alpha`: a heap has none."""
+        return True
 
     @property
     def tiles(self) -> list[TileKey]:
         """Gives the tiles that it changes."""
         return list(self.rect.tiles(self.level))
 
+
+@dataclass(frozen=True, eq=False)
+class _Raised(OnRect):
+    """An edit that adds `parts` (h, w) of a heap's unit to it."""
+
+    parts: np.ndarray
+
     def stamp(self, key: TileKey, old: Planes) -> Stamp:
         """Adds to the tile's values, as `Edit.stamp`; never more than a heap holds."""
         part = key.rect.intersect(self.rect)
         rows, columns = part.slices(key.rect)
-        lies = old.data[0][rows, columns]
         add = np.zeros((COLOURS, TILE, TILE), np.float32)
-        raised = np.clip(lies + self.parts[part.slices(self.rect)], -MOST_HEAPED, MOST_HEAPED)
-        add[:_ALPHA, rows, columns] = raised - lies
+        laid = self.parts[part.slices(self.rect)]
+        add[:_ALPHA, rows, columns] = room_left(old.data[0][rows, columns], laid, MOST_HEAPED)
         return Stamp(_ALL, add)
 
 

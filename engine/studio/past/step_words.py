@@ -86,8 +86,8 @@ def _title(command: c.Command) -> str:
             return "Merge visible" if name is None else f"Merge group “{name}”"
         case c.ClearLayer(name=name, outside=outside):
             return "Delete outside the frame" if outside else f"Clear “{name}”"
-        case c.Erode():
-            return "Erode"
+        case c.Erode() | c.LayGround():
+            return "Erode" if isinstance(command, c.Erode) else "Ground"
         case c.SetFrame() | c.SetPaper():
             return "Frame" if isinstance(command, c.SetFrame) else "Paper"
         case c.RemoveLayer(name=name):

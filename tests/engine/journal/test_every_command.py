@@ -57,6 +57,9 @@ SAMPLES = {
     c.SetFrame: c.SetFrame(Rect.at(-3, 4, 500, 400)),
     c.SetPaper: c.SetPaper("#e0d0b0"),
     c.Erode: c.Erode(Rect.at(-9, 1 << 70, 40, 30), 3, "sky", 0.25, 0.75, 0.0, 9, MORE),
+    c.LayGround: c.LayGround(
+        "grit", Rect.at(-9, 1 << 70, 40, 30), 3, "sky", (-4.5, 60.0), (0, 9.25), 0.5, 0.9, 7.5, 9, MORE
+    ),
     c.ClearLayer: c.ClearLayer("sky"),
     c.SelectLayer: c.SelectLayer("sky"),
     c.RemoveLayer: c.RemoveLayer("cloud"),
@@ -87,6 +90,7 @@ UNDOABLE = (
     c.AddPictures,
     c.AddPainting,
     c.Erode,
+    c.LayGround,
 )  # which need more than a layer "sky" there
 
 
