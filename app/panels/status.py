@@ -23,7 +23,7 @@ _LEVEL = "The level of detail shown and painted on; each level is twice as fine.
 _LAND = (
     "Wheel: fly there.  Middle button or Space: turn.  Right button: look around.  Tools work where they meet the land"
 )
-_ERROR = "How far the land may lie from where it is drawn, at most, in pixels of the window"
+_ERROR = "How far the land lies from where it is drawn, as a rule and at most, in pixels of the window"
 _NARROW = 70.0  # ems of a line in which a notice needs the room of what can wait
 _MEGABYTE = 1 << 20
 _PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready

@@ -11,6 +11,7 @@ not add up but comes and goes, as at its edges, amplitudes of neighbours D apart
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -61,13 +62,14 @@ def layer_bound(
         if found is None:
             return None
         hard, rms = hard + found.hard, rms + found.rms
+    power = 0.0
     for finer in sorted(k for k in pyramid.levels if k > level):
         for stored, inks in _stored(layer, finer, around.zoomed(finer - level), ground):
             found = _of_inks(inks, finer - 1)
             if found is None:
                 return None
-            hard, rms = hard + stored + found.hard, rms + stored + found.rms
-    return Remainder(hard, rms)
+            hard, rms, power = hard + stored.hard + found.hard, rms + found.rms, power + stored.rms**2
+    return Remainder(hard, min(hard, rms + math.sqrt(power)))
 
 
 def nothing_lies(layer: Layer, level: int, rect: Rect, cache: TileCache | None = None) -> bool:
@@ -110,13 +112,14 @@ def _of_inks(inks: list[_Laid], level: int) -> Remainder | None:
     return Remainder(hard, rms)
 
 
-def _stored(layer: Layer, level: int, rect: Rect, ground: float) -> list[tuple[float, list[_Laid]]]:
-    """Returns what a level stores in a rectangle: the most of its brightness, and of the amplitudes of its inks."""
-    most, step, laid = 0.0, float(layer.pyramid.step), dict[Instance, float]()
+def _stored(layer: Layer, level: int, rect: Rect, ground: float) -> list[tuple[Remainder, list[_Laid]]]:
+    """Returns what a level stores in a rectangle: its brightness, and the most of the amplitudes of its inks."""
+    most, power, step, laid = 0.0, 0.0, float(layer.pyramid.step), dict[Instance, float]()
     for key, record in layer.pyramid.records(level, rect):
         now = effective(layer.pyramid, key, record)
         data = np.abs(now.data.astype(np.float64)) * step
-        most = max(most, float((luma(data) + abs(ground) * data[COLOURS - 1]).max(initial=0.0)))
+        bright = luma(data) + abs(ground) * data[COLOURS - 1]
+        most, power = max(most, float(bright.max(initial=0.0))), power + float((bright * bright).sum())
         for i, ink in enumerate(now.inks):
             planes = data[COLOURS + 3 * i : COLOURS + 3 * i + 3]
             brightest = sum(
@@ -124,4 +127,5 @@ def _stored(layer: Layer, level: int, rect: Rect, ground: float) -> list[tuple[f
             )
             laid[ink] = max(laid.get(ink, 0.0), brightest)
     inks = [_Laid(ink, amplitude, 2.0 * amplitude) for ink, amplitude in laid.items() if amplitude]
-    return [(most, inks)] if most or inks else []
+    stored = Remainder(most, min(most, math.sqrt(power / rect.area)))
+    return [(stored, inks)] if most or inks else []

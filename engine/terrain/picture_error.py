@@ -11,6 +11,7 @@ import numpy as np
 from engine.numeric.address import Rect
 from engine.terrain.camera import WINDOW_RIM, Camera, Windows
 from engine.terrain.caster import CELLS_PER_PIXEL
+from engine.terrain.land_bound import Remainder
 from engine.terrain.plane import Land
 
 _LOOKED_AT = 256  # of a window's side that are looked at
@@ -19,23 +20,27 @@ _WIDER = 1.2  # than a pixel, that rays may be (as `daylight` has them)
 _BEYOND = 1.05  # times what the picture shows, that is looked at
 
 
-def picture_error(land: Land, windows: Windows, camera: Camera, size: tuple[int, int]) -> float | None:
-    """Returns what it comes to at most, None where that is not known: the bound of each part of a window, seen as near
-    as any of it lies that the picture shows by this window."""
+def picture_error(land: Land, windows: Windows, camera: Camera, size: tuple[int, int]) -> Remainder | None:
+    """Returns what it comes to, None where that is not known: the bound of each part of a window, seen as near as any
+    of it lies that the picture shows by this window.  `hard`: at most, in any of its pixels; `rms`: over all of them,
+    each taking as much room as its distance lets it."""
     cone = 2.0 * math.tan(math.radians(camera.fov) / 2) / size[0]
-    finest, worst = windows.levels[-1], 0.0
+    finest, hard, squares, room = windows.levels[-1], 0.0, 0.0, 0.0
     for w, level in enumerate(windows.levels):
-        for rect, nearest in _parts(windows, w, camera, size):
+        for rect, away in _parts(windows, w, camera, size):
             found = land.bound(level, rect)
             if found is None:
                 return None
-            worst = max(worst, math.ldexp(found.hard, finest) / (nearest * cone))
-    return worst
+            pixels = math.ldexp(1.0, finest) / (away * cone)
+            seen = (windows.places[w, 2] / away) ** 2
+            hard = max(hard, found.hard * float(pixels.max()))
+            squares, room = squares + float((seen * (found.rms * pixels) ** 2).sum()), room + float(seen.sum())
+    return Remainder(hard, math.sqrt(squares / room) if room else 0.0)
 
 
-def _parts(windows: Windows, w: int, camera: Camera, size: tuple[int, int]) -> Iterator[tuple[Rect, float]]:
-    """Yields the parts of a window that are in the picture, in pixels of its level, and how far the eye is from the
-    nearest place there, in pixels of the finest."""
+def _parts(windows: Windows, w: int, camera: Camera, size: tuple[int, int]) -> Iterator[tuple[Rect, np.ndarray]]:
+    """Yields the parts of a window that are in the picture, in pixels of its level, and how far the eye is from places
+    there, in pixels of the finest."""
     cells = windows.heights.shape[1] - 1
     away = _away(windows, w, camera, size)
     x, y = _first_of(windows, w, camera)
@@ -43,9 +48,10 @@ def _parts(windows: Windows, w: int, camera: Camera, size: tuple[int, int]) -> I
     for top in range(0, cells, part):
         for left in range(0, cells, part):
             rows, columns = (slice(a // every, (a + part) // every + 1) for a in (top, left))
-            nearest = float(away[rows, columns].min(initial=math.inf))
-            if nearest < math.inf:
-                yield Rect.at(x + left, y + top, min(part, cells - left) + 1, min(part, cells - top) + 1), nearest
+            there = away[rows, columns]
+            there = there[there < math.inf]
+            if len(there):
+                yield Rect.at(x + left, y + top, min(part, cells - left) + 1, min(part, cells - top) + 1), there
 
 
 def _every(windows: Windows) -> int:

@@ -225,7 +225,10 @@ def first_eye(x: Fraction, y: Fraction, z: float, wide: float, azimuth: float) -
 
 
 def error_text(state: LandState) -> str:
-    """Tells by how many pixels of the window the picture at rest may be wrong, at most; nothing where that is not
-    known."""
+    """Tells by how many pixels of the window the picture at rest is wrong, as a rule and at most; nothing where that is
+    not known."""
     error = None if state.still is None else state.still.error
-    return "" if error is None else f"error at most {max(error, 0.1):.1f} px"
+    if error is None:
+        return ""
+    usual, most = (max(one, 0.1) for one in error)
+    return f"error about {usual:.1f} px, at most {most:.{0 if most >= 10 else 1}f}"

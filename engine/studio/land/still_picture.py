@@ -78,7 +78,8 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
     first = next(iter(refinement(windows, replace(shot, samples=1), wide, gone, quarter=False)))
     send(StillCome(request.number, frozen(first.picture), _COARSER_FIRST, last=False))
     shot, windows = shown(1, CELLS)
-    error = picture_error(seen, windows, camera, request.size)
+    found = picture_error(seen, windows, camera, request.size)
+    error = None if found is None else (found.rms, found.hard)
     for stage in refinement(windows, shot, wide, gone, quarter=False):
         last = stage.samples == _SAMPLES
         send(StillCome(request.number, frozen(stage.picture), stage.by, last, error))

@@ -57,8 +57,9 @@ def test_land_keeps_its_promise_at_ten_levels(name):
         fine = rect.zoomed(DEEPER)
         edge = (far.shape[0] - fine.height) // 2
         far = far[edge : edge + fine.height, edge : edge + fine.width]
-        left = np.abs(seen.height(level + DEEPER, fine) - far).max()
-        assert left <= promised.hard
+        left = seen.height(level + DEEPER, fine) - far
+        assert np.abs(left).max() <= promised.hard
+        assert np.sqrt((left * left).mean()) <= 1.5 * promised.rms  # that of a small place
         assert promised.rms <= promised.hard
     assert seen.bound(40, Rect.at(PLACE[0] << 40, PLACE[1] << 40, 8, 8)) is not None
 
