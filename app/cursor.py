@@ -15,6 +15,7 @@ from app import theme
 from app.canvas.view import place_of_pixel
 from app.desk.desk import Desk
 from app.desk.hand import radius_of
+from app.desk.land.land_ring import ring_on_land
 from app.desk.moving import held_box
 from app.desk.moving.box import SCALES, TURN
 from app.desk.moving.move_state import TOOL
@@ -96,6 +97,13 @@ def draw_outline(desk: Desk) -> None:
     if desk.hand_sight.ghost is not None:
         return
     at, radius = _brush_at(desk), max(1.5, radius_of(desk.hand, desk.pointer.eraser))
+    if desk.land.on:
+        level = desk.view.shown_level if desk.painting else None  # a stroke keeps the one at which it began
+        ring = [ImVec2(*one) for one in ring_on_land(desk.land, desk.pointer.x, desk.pointer.y, radius, level)]
+        for width, grey, alpha in ((2.6, 0.0, 0.55), (1.2, 1.0, 0.9)) if ring else ():
+            colour = theme.packed((grey,) * 3, alpha)
+            painter.add_polyline([*ring], colour, width * desk.scale, int(imgui.ImDrawFlags_.closed))
+        return
     painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.55), 0, 1.6 * desk.scale)
     painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.75), 0, 1.0 * desk.scale)
 

@@ -221,8 +221,9 @@ class Window:
         imgui.render()
 
     def _marks(self) -> None:
-        """Draws what lies over the canvas, if that is seen."""
+        """Draws what lies over the canvas; over the land, the brush's outline alone."""
         if self.desk.land.on:
+            cursor.draw_outline(self.desk)
             return
         mask_veil.draw_veil(self.desk)
         cursor.draw_frame(self.desk)

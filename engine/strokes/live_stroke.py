@@ -85,6 +85,11 @@ class Drawn:
         return self._count >= POINTS_CAP
 
     @property
+    def count(self) -> int:
+        """Tells how many points the pen has told."""
+        return self._count
+
+    @property
     def empty(self) -> bool:
         """Tells whether the pen has told no point yet."""
         return self._count == 0

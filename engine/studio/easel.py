@@ -24,6 +24,8 @@ from engine.studio.outline import rows
 from engine.studio.viewer import Viewer
 from engine.texture.image import ImageSource
 
+_NO_GROWTH = Rect(0, 0, 0, 0)
+
 
 class Easel(Owned):
     """A session with the stroke in progress.  It belongs to the engine's thread.
@@ -40,6 +42,7 @@ class Easel(Owned):
         self.name = ""
         self.saved: object = self.session.state
         self.serial = 0
+        self._growth = _NO_GROWTH
         self.viewer = Viewer(self)
 
     @property
@@ -82,6 +85,7 @@ class Easel(Owned):
         about = stroke.layer, stroke.seed, stroke.copies, stroke.onto
         self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, *about)
         self.live.extra = stroke.extra
+        self._growth = _NO_GROWTH
 
     def extend(self, points: np.ndarray) -> None:
         """Lays more of the stroke.  Only the paint is laid; pictures of it follow when no more points wait."""
@@ -141,7 +145,13 @@ class Easel(Owned):
 
     def _grew(self, area: Rect) -> None:
         if self.live is not None and not area.empty:
+            self._growth = self._growth.union(area)
             self.viewer.grew(self.live.level, self.live.areas or [area])
+
+    def taken_growth(self) -> Rect:
+        """Returns, once, where the stroke in progress has grown since this was asked for, in pixels of its level."""
+        grown, self._growth = self._growth, _NO_GROWTH
+        return grown
 
     # --- what is seen ------------------------------------------------------------------------------------------------
 

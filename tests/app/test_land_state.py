@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from app.desk.land import land_state
+from app.desk.land.land_ring import ring_on_land
 from app.desk.land.land_state import LandState
 from engine.numeric.address import Rect
 from engine.terrain.seen.eye import Eye
@@ -87,3 +88,16 @@ def test_tiles_take_no_more_than_their_room(state, monkeypatch):
     assert state.held == one * len(state.kept)
     state.forget()
     assert state.held == 0
+
+
+def test_the_brush_lies_on_the_land_as_a_stroke_of_its_radius_would(state):
+    found = state.hit(150.0, 220.0)
+    ring = ring_on_land(state, 150.0, 220.0, 12.0)
+    wide = 12.0 * 2.0 ** -state.level_at(found.away)
+    assert 6.0 < max(x for x, _ in ring) - 150.0 < 24.0
+    for x, y in ring:
+        met = state.hit(x, y)
+        assert np.hypot(float(met.x - found.x), float(met.y - found.y)) == pytest.approx(wide, rel=1e-6)
+    down, across = (max(at[i] for at in ring) - min(at[i] for at in ring) for i in (1, 0))
+    assert down < 0.8 * across  # it is seen from the side
+    assert ring_on_land(state, 120.0, 22.0, 12.0) == []

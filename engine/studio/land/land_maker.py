@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
+import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
-from engine.painting.difference import areas
 from engine.painting.value import Painting
 from engine.studio.easel import Easel
 from engine.studio.land.land_records import AskGround, AskLand, GroundFound, LandMade
+from engine.studio.land.stroke_seen import StrokeSeen
 from engine.studio.requests import Handlers
 from engine.studio.sight import STEPS_KEPT
 from engine.terrain.drape import cover_of
@@ -25,10 +26,10 @@ _Where = Callable[[int], "list[Rect] | None"]
 
 
 class LandMaker(Owned):
-    """It belongs to the engine's thread.  The newest `AskLand` counts."""
+    """It belongs to the engine's thread.  The newest `AskLand` counts.  `clock` tells seconds."""
 
-    def __init__(self, easel: Easel) -> None:
-        self._easel = easel
+    def __init__(self, easel: Easel, clock: Callable[[], float] = time.perf_counter) -> None:
+        self._easel, self._seen = easel, StrokeSeen(easel, clock)
         self._painting: Painting | None = None  # that the tiles are of
         self._maker: TileMaker | None = None
         self._revision = 0
@@ -40,7 +41,7 @@ class LandMaker(Owned):
     @property
     def pending(self) -> int:
         """Returns tiles to look at."""
-        if self._wanted and self._easel.session.painting is not self._painting:
+        if self._wanted and self._seen.painting() is not self._painting:
             self._follow()
         return len(self._open)
 
@@ -78,12 +79,12 @@ class LandMaker(Owned):
 
     def _follow(self) -> None:
         """Takes over the painting as it is now, and notes where it is another one than before."""
-        painting, before = self._easel.session.painting, self._painting
+        painting, before = self._seen.painting(), self._painting
         if painting is before:
             return
         self._painting = painting
         cache = self._easel.session.cache
-        where = None if before is None or _told(before) != _told(painting) else areas(before, painting)
+        where = None if before is None or _told(before) != _told(painting) else self._seen.between(before, painting)
         if where is None or self._maker is None:
             self._revision += 1
             self._changes.clear()

@@ -24,7 +24,7 @@ NEAR, FAR = TileKey(0, 4, 4), TileKey(0, 28, 28)  # 64..80, 448..464
 @pytest.fixture
 def easel():
     sent = []
-    return SimpleNamespace(session=Session(Painting(FRAME, 7)), send=sent.append, sent=sent)
+    return SimpleNamespace(session=Session(Painting(FRAME, 7)), live=None, send=sent.append, sent=sent)
 
 
 def do(easel, **row):
