@@ -38,7 +38,7 @@ def pictured(root: Group | Planned, level: int, rect: Rect, read: Read, lighting
     around = needed(rect, lighting)
     planes = composite(root, level, around, read)
     if lighting.heaped is not None:
-        heights = height_of_thickness(thickness(lighting.heaped, level, around))
+        heights = height_of_thickness(thickness(lighting.heaped, level, around, read=read))
     elif lighting.relief is not None:
         heights = luminance(composite(lighting.relief, level, around, read))
     else:

@@ -42,7 +42,7 @@ class SeenHeights(Owned):
         if source == BY_ALPHA:
             heights = picture[3]
         elif source == BY_IMPASTO:
-            heights = height_of_thickness(thickness(root, level, part, heaps_of))
+            heights = height_of_thickness(thickness(root, level, part, heaps_of, read))
         elif source == BY_PICTURE or not has(root, source):
             heights = luminance(picture)
         else:

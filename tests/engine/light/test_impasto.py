@@ -82,3 +82,26 @@ def test_hidden_and_pale_layers_are_less_thick():
     gone = apply(painting, parse({"do": "layer", "set": "Layer 1", "visible": False}), Around())
     assert np.allclose(thickness(half.root, 0, FRAME), full / 2, rtol=0, atol=1e-6)
     assert not thickness(gone.root, 0, FRAME).any()
+
+
+@pytest.mark.parametrize("holder", ["Layer 1", "Group"])
+def test_paint_is_as_thick_as_its_masks_show_it(holder):
+    painting = painted(stroke())
+    full = thickness(painting.root, 0, FRAME)
+    for row in (
+        {"do": "layer", "add": "Group", "kind": "group"},
+        {"do": "layer", "move": "Layer 1", "to": 0, "group": "Group"},
+        {"do": "select", "rect": [0, 0, 0, 90, 200]},
+        {"do": "select", "keep": "left"},
+        {"do": "layer", "set": holder, "mask": "left"},
+        {"do": "select", "none": True},
+    ):
+        painting = apply(painting, parse(row), Around())
+    cut = thickness(painting.root, 0, FRAME)
+    left, right = np.s_[:, : 90 - FRAME.x0], np.s_[:, 90 - FRAME.x0 :]
+    assert full[left].any()
+    assert full[right].any()
+    assert np.array_equal(cut[left], full[left])
+    assert not cut[right].any()
+    off = apply(painting, parse({"do": "layer", "set": holder, "mask": {"op": "off"}}), Around())
+    assert np.array_equal(thickness(off.root, 0, FRAME), full)
