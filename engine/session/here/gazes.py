@@ -18,6 +18,7 @@ from engine.canvas.placing.through import UNPLACED, Seen, looked_through
 from engine.canvas.reading import layer_planes
 from engine.canvas.selecting.layer_mask import Mask
 from engine.canvas.tile_cache import TileCache
+from engine.checks.roles import AS_HEIGHT
 from engine.numeric.address import Rect
 from engine.numeric.similarity import Similarity
 from engine.session.merging import PLAIN_BLEND
@@ -124,13 +125,14 @@ class Sightline:
         """Yields those of some nodes, bottom first; returns their alpha together."""
         left = 1.0
         for base, clipped in reversed(stacks(nodes)):
-            behind = weight * left * base.opacity
+            land = not isinstance(base, Group) and base.role == AS_HEIGHT  # beside the picture: nothing hides it
+            behind = weight * (1.0 if land else left) * base.opacity
             if not base.visible or behind < LEAST_SHARE:
                 continue
             if clipped:
                 behind *= yield from self._clipped(base, clipped, gaze, seen, behind, depth)
             alpha = yield from self._node(base, gaze, seen, behind, depth)
-            left *= 1.0 - base.opacity * alpha if base.blend == PLAIN_BLEND else 1.0
+            left *= 1.0 - base.opacity * alpha if base.blend == PLAIN_BLEND and not land else 1.0
         return 1.0 - left
 
     def _clipped(

@@ -3,7 +3,8 @@
 A stroke shows where its coverage, times what was selected, times what later ones and the layers above leave of it, is
 at least 1/255.  What a stroke leaves is 1 less its coverage; a raster-op that only changes what is there leaves all of
 it.  At levels coarser than the strokes' the pixel is looked at in parts, so that strokes side by side do not hide one
-another.  Layers that were merged lie on as they lay then; what a placement shows is looked for in its source.
+another.  Layers that were merged lie on as they lay then; what a placement shows is looked for in its source.  What is
+heaped on the land adds up, and no paint hides it.
 """
 
 from __future__ import annotations
@@ -16,10 +17,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from engine.brush.modes import HEAPS_UP
 from engine.canvas import layers
 from engine.canvas.reading import layer_planes
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.tile_cache import TileCache
+from engine.checks.roles import AS_HEIGHT
 from engine.makers.definitions import kind_of
 from engine.numeric.address import Rect
 from engine.painting import commands as c
@@ -172,7 +175,9 @@ class PaintedHere:
         """Yields the strokes of a ply that show."""
         ply, weight = some[0].ply, ground.sight.weight
         covered = self._covered(some, ply)
-        leave = np.array([hides(one.stroke.brush) for one in some], np.float32)[:, None, None]
+        heaps = ground.sight.layer.role == AS_HEIGHT
+        leave = np.array([not (heaps and _adds(one.stroke)) and hides(one.stroke.brush) for one in some], np.float32)
+        leave = leave[:, None, None]
         seen = np.multiply.accumulate(np.concatenate([ply.left[None], 1.0 - covered * leave]))
         if ply.parent is not None:
             _add_alpha(ply, some, covered)
@@ -297,6 +302,12 @@ def _add_alpha(ply: Ply, some: Sequence[Candidate], covered: np.ndarray) -> None
     left = np.multiply.accumulate(np.concatenate([ply.open[None], 1.0 - covered * np.maximum(laying, taking)]))
     ply.alpha = ply.alpha + (covered * laying * left[:-1]).sum(axis=0)
     ply.open = left[-1]
+
+
+def _adds(stroke: c.Stroke) -> bool:
+    """Tells whether a stroke on a layer of heights heaps up, or carves: of such ones each shows, however many lie
+    there."""
+    return stroke.brush.height is not None and stroke.brush.row.heaps == HEAPS_UP
 
 
 def _level(one: Candidate) -> int:

@@ -214,3 +214,20 @@ def test_five_thousand_strokes_are_looked_through_at_once():
             spent.append(time.process_time() - before)
             assert found
         assert min(spent) < 0.3, spent
+
+
+def test_all_that_is_heaped_on_the_land_shows_whatever_is_painted_over_it():
+    """Once the newest stroke hid all heights below it, and paint on another layer hid the land."""
+    land, heap = {"do": "layer", "set": "Land", "role": "height"}, {"radius": 20, "hardness": 1}
+    rows = [
+        {"do": "layer", "add": "Land"},
+        land,
+        *(stroke((30, 24), layer="Land", height=height, **heap) for height in (9, -2, 4)),
+        {"do": "layer", "add": "Paint"},
+        stroke((30, 24), layer="Paint", hardness=1, opacity=1),
+    ]
+    found = shown(session_of(rows), 0, 30, 24)
+    assert [one.step.index for one in found] == [6, 4, 3, 2]
+    assert all(one.share > 0.9 for one in found)
+    taken = [*rows[:-2], stroke((30, 24), layer="Land", mode="erase", height=9, **heap)]
+    assert [one.step.index for one in shown(session_of(taken), 0, 30, 24)] == [5]
