@@ -45,6 +45,8 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--turn", type=_angles, default=(25.0, 0.0), metavar="A,B", help="degrees round, and forwards")
     parser.add_argument("--scale", type=_positive, default=0.42, metavar="S", help="of the solid (default 0.42)")
     parser.add_argument("--size", type=size, metavar="WxH", help="pixels of a picture (default 1280x800)")
+    wraps = "wrap SOLID, a picture that tiles, around the object without a seam, in place of carving"
+    parser.add_argument("--map", action="store_true", help=wraps)
     parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another solid (default 0)")
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a slider of the material; may be repeated"
@@ -145,12 +147,18 @@ def _solid(options: argparse.Namespace) -> Lookup:
     from engine.solids.solid_lookup import Cubed, Procedural
 
     name = options.solid
+    if options.map and (name in MATERIALS or name.lower().endswith(".npy")):
+        raise Refused(f"--map: found {name[:80]!a}, expected a picture that tiles")
     if name in MATERIALS:
         return Procedural(name, options.seed, _values(name, options.set))
     if options.set:
         raise Refused(f"--set: found one for {name[:80]!a}, expected a material: {', '.join(MATERIALS)}")
     if not os.path.exists(name):
         raise Refused(f"{name}: no such file, and no material: {', '.join(MATERIALS)}")
+    if options.map:
+        from engine.solids.object_map import ObjectMap
+
+        return ObjectMap.of(match_command.read(name, options.out).planes[:3], options.on, options.scale)
     if name.lower().endswith(".npy"):
         from engine.solids.cube_files import read_cube
 

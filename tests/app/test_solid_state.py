@@ -1,9 +1,13 @@
 """What the panel of solids asks for, and the slice that faces the eye."""
 
+from types import SimpleNamespace
+
 import numpy as np
+import pytest
 
 from app.desk.solids.solid_state import OBJECTS, SolidState, turned_by
 from app.desk.solids.solid_work import Carve
+from engine.files.fault import FileError
 from engine.solids import objects
 
 
@@ -38,3 +42,20 @@ def test_only_what_is_set_otherwise_is_carved_again():
     assert Carve(state.made, state.name, 4, other).carry_out().cube is other.cube
     state.drag(400.0, 500.0)
     assert state.turn == (10.0, 100.0)
+
+
+def test_a_mesh_of_ones_own_is_shown_and_what_is_none_leaves_the_object_that_was_there(tmp_path):
+    path = tmp_path / "pyramid.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+    desk = SimpleNamespace(solid=SolidState(material="granite", name="cube"), say=lambda text, bad: told.append(text))
+    told, state = [], desk.solid
+    state.carved = Carve(state.made, "cube", 4, None).carry_out()
+    work = Carve(state.made, str(path), 4, state.carved)
+    assert len(work.carry_out().faces) == 4
+    state.name = str(tmp_path / "none.obj")
+    broken = Carve(state.made, state.name, 4, state.carved)
+    with pytest.raises(FileError, match=r"none\.obj"):
+        broken.carry_out()
+    broken.fail(desk, "none.obj: cannot be read")
+    assert state.name == "cube"
+    assert told == ["none.obj: cannot be read"]

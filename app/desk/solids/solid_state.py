@@ -10,6 +10,7 @@ import numpy as np
 from engine.solids.material_sliders import MATERIALS
 
 OBJECTS = ("sphere", "cube", "torus", "vase", "teapot", "knot", "bust")
+USUAL_OBJECT = "teapot"
 FIRST_SIDE, LAST_SIDE = 48, 96  # voxels of the cube that is shown at once, and of the one that follows
 _STEEP = 2  # of a slice's normal, in whole numbers
 _MOST_TILT = 100.0
@@ -37,12 +38,12 @@ class Carved:
 
 @dataclass(slots=True)
 class SolidState:
-    """`turn`: degrees about the upright axis, and forwards; `scale`: of the solid; `depth`: of the slice that becomes
-    ink; `room`: pixels of the picture; `turning`: by hand, right now; `busy`: something is being carved; `awaited`: the
-    texture that is to be ink."""
+    """`name`: of an object, or the path of a mesh; `turn`: degrees about the upright axis, and forwards; `scale`: of
+    the solid; `depth`: of the slice that becomes ink; `room`: pixels of the picture; `turning`: by hand, right now;
+    `busy`: something is being carved; `awaited`: the texture that is to be ink."""
 
     material: str = "agate"
-    name: str = "teapot"
+    name: str = USUAL_OBJECT
     seed: int = 1
     values: dict[str, dict[str, float]] = field(default_factory=dict)
     turn: tuple[float, float] = (-30.0, 22.0)

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.desk.desk import Desk, FileWork
-from app.desk.solids.solid_state import Carved, Made
+from app.desk.solids.solid_state import USUAL_OBJECT, Carved, Made
 
 MOST_TURNING = 24_000  # triangles that are drawn while it turns
 
 
 @dataclass(frozen=True, slots=True)
 class Carve(FileWork):
-    """A cube of `side` voxels of a material, and an object; what `before` has of both is kept."""
+    """A cube of `side` voxels of a material, and an object, one of ours or the file of a mesh; what `before` has of
+    both is kept."""
 
     made: Made
     name: str
@@ -24,7 +25,8 @@ class Carve(FileWork):
     def carry_out(self) -> Carved:
         """Returns both."""
         from engine.solids.fewer_triangles import fewer_triangles
-        from engine.solids.objects import object_named
+        from engine.solids.mesh_files import read_mesh
+        from engine.solids.objects import OBJECTS, object_named
         from engine.solids.solid_lookup import Procedural
 
         held = self.before
@@ -39,7 +41,7 @@ class Carve(FileWork):
             cube = np.rint(255.0 * np.clip(colours, 0.0, 1.0)).astype(np.uint8).reshape((self.side,) * 3 + (3,))
         if held is not None and held.name == self.name:
             return Carved(self.made, cube, self.name, held.corners, held.faces, held.fewer)
-        mesh = object_named(self.name)
+        mesh = object_named(self.name) if self.name in OBJECTS else read_mesh(self.name)
         corners = np.concatenate([mesh.points, mesh.normals], axis=1).astype(np.float32)
         return Carved(self.made, cube, self.name, corners, mesh.faces, fewer_triangles(mesh, MOST_TURNING))
 
@@ -48,6 +50,8 @@ class Carve(FileWork):
         desk.solid.busy, desk.solid.carved = False, found
 
     def fail(self, desk: Desk, fault: str) -> None:
-        """Tells why."""
+        """Tells why; the object that was there stays."""
         desk.solid.busy = False
+        if self.name == desk.solid.name:
+            desk.solid.name = USUAL_OBJECT if self.before is None else self.before.name
         desk.say(fault, bad=True)

@@ -320,6 +320,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "match picture 0": file_browser.choosing_example(0),
     "match picture 1": file_browser.choosing_example(1),
     "example picture": file_browser.choosing_own,
+    "solid mesh": file_browser.choosing_mesh,
     "bring from": file_browser.choosing_to_bring,
     "bring in": BringIn,
     "unsaved": lambda desk: Unsaved(),

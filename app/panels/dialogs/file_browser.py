@@ -25,6 +25,7 @@ from engine.studio.requests import Export
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
 _PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+_MESHES = (".obj", ".stl", ".glb")
 _BROUGHT = (*_PICTURES, ".exr", ".ora", ".psd", ".psb")
 SAVES = (".ora",)
 FILMS = (".mp4", ".webm", ".webp", ".avif", ".gif", ".png")
@@ -243,6 +244,15 @@ def choosing_own(desk: Desk) -> SystemDialog | Browser:
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture to paint with."""
     return _chooser("Paint with a picture", _folder(desk), _PICTURES, False, pictured.from_file)
+
+
+def choosing_mesh(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a mesh to show a solid on."""
+
+    def choose(d: Desk, path: Path) -> None:
+        d.solid.name = str(path.absolute())
+
+    return _chooser("Show a solid on a mesh", _folder(desk), _MESHES, False, choose)
 
 
 def choosing_to_bring(desk: Desk) -> SystemDialog | Browser:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import PurePath
+
 from imgui_bundle import ImVec2, imgui
 from immutables import Map
 
@@ -21,6 +23,7 @@ from engine.studio.requests import Do
 _DEGREES = 0.45  # for each pixel of a drag
 _SCALES = 0.1, 2.0
 _UNIT = 256  # pixels of the slice that is ink
+_OWN, _LONGEST = "", 24  # what asks for a mesh; letters of its name
 
 
 class SolidPanel(Panel):
@@ -80,7 +83,14 @@ class SolidPanel(Panel):
         side = imgui.get_frame_height()
         wide = imgui.get_content_region_avail().x - side - 2 * desk.scale
         objects = [(name, name.capitalize()) for name in OBJECTS]
-        state.name = w.choice("object shown", state.name, objects, "The object that is made of it", wide) or state.name
+        if state.name not in OBJECTS:
+            objects.append((state.name, PurePath(state.name).stem[:_LONGEST]))
+        objects.append((_OWN, "A mesh of your own…"))
+        chosen = w.choice("object shown", state.name, objects, "The object that is made of it", wide)
+        if chosen == _OWN:
+            desk.asked.show("solid mesh")
+        elif chosen:
+            state.name = chosen
         imgui.same_line(0, 2 * desk.scale)
         if w.icon_button("throw", icons.DICE, "The same from another block", size=side):
             state.seed = (state.seed * 31 + 17) % 99991

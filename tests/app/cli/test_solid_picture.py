@@ -117,12 +117,21 @@ def test_what_cannot_be_is_refused(tmp_path, capsys):
         ("wood", tmp_path / "o.glb", "--size", "9x9"),
         ("wood", tmp_path / "o.glb", "--on", "bust", "--triangles", "1000"),
         ("wood", out, "--triangles", "5000"),
+        ("wood", out, "--map"),
         *((tmp_path / f"{name}.npy", out) for name in ("flat", "text", "nan", "no")),
         (tmp_path / "m.obj", out),
     ):
         assert "expected" in refused(capsys, "solid", *words) or "no such file" in refused(capsys, "solid", *words)
         assert not out.exists()
         assert not (tmp_path / "o.glb").exists()
+
+
+def test_a_picture_is_wrapped_around_an_object(tmp_path):
+    y, x = np.mgrid[:32, :32]
+    picture = np.stack([128 + 100 * np.sin(2 * np.pi * x / 32), 90 + 0.0 * x, 200 - 2.0 * y], axis=2)
+    Image.fromarray(picture.astype(np.uint8)).save(tmp_path / "e.png")
+    assert main(["solid", str(tmp_path / "e.png"), str(tmp_path / "o.png"), "--map", "--on", "torus", *SMALL]) == 0
+    assert pixels(tmp_path / "o.png")[:, :, 0].std() > 15.0
 
 
 @pytest.mark.nightly
