@@ -16,7 +16,8 @@ class PenEvent:
     kind: `move`, `down`, `up`, `wheel`, or `lost`: nothing more comes of what was pressed, as the pen is unplugged or
     another window is in front; where it was last is told.
     `done`, `back`: the keys Enter and Backspace, while something is drawn.  x, y: framebuffer pixels with fractions.
-    pressure 0..1 (a mouse: 1 while its button is down).  Tilt in degrees, -90..90.  time: seconds of a steady clock.
+    pressure 0..1 (a mouse: 1 while its button is down).  Tilt in degrees, -90..90; `rotation` of
+    the barrel in degrees clockwise, None where the pen does not tell it.  time: seconds of a steady clock.
     button: 1 left or tip, 2 middle, 3 right, 4 back, 5 forward.  eraser: the pen is held the other way round.  dx, dy:
     notches of the wheel, up and left positive.
     """
@@ -27,6 +28,7 @@ class PenEvent:
     pressure: float = 1.0
     tilt_x: float = 0.0
     tilt_y: float = 0.0
+    rotation: float | None = None
     time: float = 0.0
     button: int = 0
     eraser: bool = False

@@ -45,6 +45,7 @@ class MacPointer:
             pressure=float(event.pressure()),
             tilt_x=float(tilt.x) * 90,
             tilt_y=float(tilt.y) * -90,
+            rotation=float(event.rotation()),
             time=float(event.timestamp()),
             button=0 if kind == "move" else LEFT,
             pen=True,

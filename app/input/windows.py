@@ -20,6 +20,7 @@ _PEN = 3
 _ERASER_FLAGS = 0x2 | 0x4  # PEN_FLAG_INVERTED, PEN_FLAG_ERASER
 _WINDOW_PROCEDURE = -4
 _HISTORY = 256
+_TELLS_ROTATION = 0x2  # PEN_MASK_ROTATION
 
 
 class _Point(ct.Structure):
@@ -104,6 +105,7 @@ class WindowsPointer:
                 pressure=info.pressure / 1024,
                 tilt_x=float(info.tiltX),
                 tilt_y=float(info.tiltY),
+                rotation=float(info.rotation) if info.penMask & _TELLS_ROTATION else None,
                 time=info.pointerInfo.dwTime / 1000 or time.monotonic(),
                 button=0 if kind == "move" else LEFT,
                 eraser=bool(info.penFlags & _ERASER_FLAGS),

@@ -27,6 +27,7 @@ _BUTTONS = {1: LEFT, 2: MIDDLE, 3: RIGHT, 8: BACK, 9: FORWARD}
 _WHEEL = {4: (0.0, 1.0), 5: (0.0, -1.0), 6: (1.0, 0.0), 7: (-1.0, 0.0)}
 _PATIENCE = 0.05  # seconds that whoever asks for events waits for the thread that reads them
 _ROLES = {"Abs Pressure": "pressure", "Abs Tilt X": "tilt_x", "Abs Tilt Y": "tilt_y"}
+_ROLES |= dict.fromkeys(("Abs Wheel", "Abs Rotary Z"), "rotation")  # the barrel's: of Wacom's driver, of libinput's
 
 
 class EventMask(ct.Structure):
@@ -137,9 +138,11 @@ class Axis:
     hi: float
 
     def value(self, raw: float) -> float:
-        """Pressure 0..1; tilt in degrees."""
+        """Pressure 0..1; tilt and rotation in degrees."""
         if self.role == "pressure":
             return min(1.0, max(0.0, (raw - self.lo) / (self.hi - self.lo))) if self.hi > self.lo else 0.0
+        if self.role == "rotation":
+            return raw / (self.hi - self.lo + 1.0) * 360.0 if self.hi > self.lo else 0.0
         most = max(abs(self.lo), abs(self.hi))
         degrees = raw if most <= 90 else raw / most * 90
         return min(90.0, max(-90.0, degrees))
@@ -185,13 +188,13 @@ def unpacked(state: ValuatorState) -> dict[int, float]:
 def pen_event(event: DeviceEvent, device: Device | None) -> PenEvent | None:
     """Returns the record of an XI_Motion, XI_ButtonPress or XI_ButtonRelease; None for what means nothing here."""
     kind, detail = event.evtype, event.detail
-    fields: dict[str, float | int | bool] = {}
+    fields: dict[str, float | int | bool | None] = {}
     if device is not None and device.pen:
         device.take(unpacked(event.valuators))
         fields = {
             "pressure": device.last.get("pressure", 0.0),
-            "tilt_x": device.last.get("tilt_x", 0.0),
-            "tilt_y": device.last.get("tilt_y", 0.0),
+            **{name: device.last.get(name, 0.0) for name in ("tilt_x", "tilt_y")},
+            "rotation": device.last.get("rotation"),
             "eraser": device.eraser,
             "pen": True,
         }

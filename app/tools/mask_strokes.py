@@ -12,7 +12,7 @@ from app.desk.guides import symmetry
 from app.input.events import PenEvent
 from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
-from engine.painting.points import REACH, rounded
+from engine.painting.points import REACH, like_first, rounded
 from engine.painting.select_commands import Line, Select
 from engine.studio.selecting.tint_records import MaskBegin, MaskEnd, MaskPoints
 
@@ -40,7 +40,7 @@ class MaskBegun:
     def end(self, desk: Desk, done: bool) -> None:
         """Ends it: what it covers is selected, or is not any more, if it is `done`."""
         if done and self._points:
-            table = rounded(np.concatenate(self._points))
+            table = rounded(like_first(self._points))
             table.flags.writeable = False
             line = Line(self.level, self.origin, table, self.brush, self.copies)
             desk.selecting.choose(desk.post, Select(line, "subtract" if self.takes else "add", self.level))

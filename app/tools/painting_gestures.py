@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from typing import NamedTuple
 
@@ -33,7 +34,21 @@ def _point(view: View, level: int, origin: tuple[int, int], event: PenEvent, sta
     """Returns a pen event as a row of stroke points."""
     x, y = view.to_canvas(event.x, event.y).offset(level, *origin)
     pressure = event.pressure if event.pen else 1.0
-    return [x, y, pressure, event.tilt_x, event.tilt_y, event.time - start]
+    return [x, y, pressure, *_held(view, event), event.time - start, *_turned(view, event)]
+
+
+def _held(view: View, event: PenEvent) -> tuple[float, float]:
+    """Returns how the pen leans over the picture, which may be turned and mirrored."""
+    a, b, c, d = view.matrix()
+    return a * event.tilt_x + c * event.tilt_y, b * event.tilt_x + d * event.tilt_y
+
+
+def _turned(view: View, event: PenEvent) -> tuple[float, ...]:
+    """Returns how the pen's barrel is turned over the picture, if it tells that."""
+    if event.rotation is None:
+        return ()
+    turn = -event.rotation if view.mirrored else event.rotation
+    return ((180.0 if view.mirrored else 0.0) + turn + math.degrees(view.angle if view.mirrored else -view.angle),)
 
 
 def refused(desk: Desk) -> bool:
@@ -156,7 +171,8 @@ def _from_last(desk: Desk, level: int, origin: tuple[int, int], first: PenEvent)
         return np.empty((0, 6))
     x, y = desk.guides.last.offset(level, *origin)
     near = max(abs(x), abs(y)) <= REACH
-    return np.array([[x, y, first.pressure if first.pen else 1.0, first.tilt_x, first.tilt_y, 0.0]])[:near]
+    pressure = first.pressure if first.pen else 1.0
+    return np.array([[x, y, pressure, *_held(desk.view, first), 0.0, *_turned(desk.view, first)]])[:near]
 
 
 def paint_lab(desk: Desk, first: PenEvent) -> Gesture:

@@ -66,8 +66,8 @@ def rgb(value: str) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def knots(value: Any, place: str, most: float = OUTPUT_CAP) -> Knots:
-    """[[in, out], ...]: 1 to 64 pairs, inputs rising strictly within 0..1, outputs within 0..`most`."""
+def knots(value: Any, place: str, most: float = OUTPUT_CAP, widest: float = 1.0) -> Knots:
+    """[[in, out], ...]: 1 to 64 pairs, inputs rising strictly within 0..`widest`, outputs within 0..`most`."""
     if not isinstance(value, list | tuple) or not 1 <= len(value) <= KNOTS_CAP:
         raise BrushError(place, described(value), f"a list of 1 to {KNOTS_CAP} knots [in, out]")
     pairs: list[tuple[float, float]] = []
@@ -75,7 +75,7 @@ def knots(value: Any, place: str, most: float = OUTPUT_CAP) -> Knots:
         at = f"{place}[{i}]"
         if not isinstance(pair, list | tuple) or len(pair) != 2:
             raise BrushError(at, described(pair), "a knot [in, out]")
-        knot = number(pair[0], at, 0.0, 1.0), number(pair[1], at, 0.0, most)
+        knot = number(pair[0], at, 0.0, widest), number(pair[1], at, 0.0, most)
         if pairs and knot[0] <= pairs[-1][0]:
             raise BrushError(at, described(pair), f"an input above {pairs[-1][0]:g}, that of the knot before")
         pairs.append(knot)

@@ -6,17 +6,26 @@ import math
 
 import numpy as np
 
-from engine.brush.dynamics import FLOW, HARDNESS, OPACITY, RADIUS, SPACING, respond, response
+from engine.brush import felt
+from engine.brush.dynamics import respond, response
+from engine.brush.felt_dabs import (
+    ROUND_COLUMNS,
+    SEGMENT_CAP,
+    SPACING_FLOOR,
+    STEP_FLOOR,
+    STROKE_CAP,
+    TURNED_COLUMNS,
+    walk_felt,
+)
 from engine.brush.samples import cleaned
 from engine.brush.settings import Brush
+from engine.brush.targets import FLOW, HARDNESS, OPACITY, RADIUS, SPACING
+from engine.numeric.hashing import fold_key
 from engine.numeric.kernel import Array, kernel
 from engine.numeric.stand_in import or_interpreted
 
-DAB = 6  # columns: x, y, radius, opacity, flow, hardness
-STEP_FLOOR = 0.25  # px
-SPACING_FLOOR = 0.02  # radii: a brush of 4000 px must not lay down 16,000 discs for every one of its radii
-SEGMENT_CAP = 1 << 18  # dabs between two points: farther points get wider spacing
-STROKE_CAP = 1 << 22  # dabs of a stroke: after that, at most one for each point
+DAB = ROUND_COLUMNS
+_DOMAIN = 0x64616273  # "dabs"
 
 _STARTED, _X, _Y, _PRESSURE, _LEFT, _COUNT = range(6)  # the walk's state
 
@@ -29,33 +38,72 @@ class Stroker:
     any portions gives the same dabs, bit for bit, as adding them at once.
     """
 
-    def __init__(self, brush: Brush) -> None:
+    def __init__(self, brush: Brush, key: int = 0) -> None:
         self._response = response(brush)
-        self._state = np.zeros(6)
+        self._felt = felt.feeling(brush) if felt.feels(brush) else None
+        self._width = DAB if self._felt is None or not self._felt.plan[felt.HAS_TURNS] else TURNED_COLUMNS
+        self._key = np.uint64(key)
+        self._state = np.zeros(6 if self._felt is None else felt.STATE)
+        self._columns = 0  # of the points
         self.dropped = 0  # points that were no places
 
     def add(self, points: np.ndarray) -> np.ndarray:
-        """Returns the dabs that `points`, float64 (n, 2..6): x, y, pressure, tilt_x, tilt_y, t, add to the stroke.
+        """Returns the dabs that `points`, float64 (n, 2..7): x, y, pressure, tilt_x, tilt_y, t, rotation, add.
 
-        Returns float64 (m, 6): x, y, radius in px; opacity, flow, hardness in 0..1.  Points that are not finite are
-        dropped and counted; BrushError beyond 2^31 px.
+        Returns float64 (m, 6): x, y, radius in px; opacity, flow, hardness in 0..1; (m, 9) where dabs are turned: also
+        the cosine and sine of the angle, and the ratio.  Points that are not finite are dropped and counted; BrushError
+        beyond 2^31 px.
         """
         points, dropped = cleaned(points)
         self.dropped += dropped
         return self.walk(points)
 
     def walk(self, points: np.ndarray) -> np.ndarray:
-        """As `add`, for points float64 (n, 6) that are known to be good (`cleaned` would leave them as they are)."""
+        """As `add`, for points float64 (n, 6..7) that are known to be good (`cleaned` would leave them as they are)."""
         points = points.view()
         points.flags.writeable = False  # as those of a recording: so the kernel is compiled once
-        dabs = np.empty((4 * len(points) + 64, DAB))
+        self._columns = max(self._columns, points.shape[1])
+        return self._walked(points, False)
+
+    @property
+    def waits(self) -> bool:
+        """Tells whether the first dab waits for the direction of the stroke, which has gone nowhere yet."""
+        return self._felt is not None and self._state[felt.IS_BEGUN] > 0.0 and self._state[felt.IS_LAID] == 0.0
+
+    def rest(self) -> np.ndarray:
+        """Returns the dab that waits, if any, as that of a stroke that ends where it began; it goes on waiting."""
+        if not self.waits:
+            return np.empty((0, self._width))
+        before, last = self._state, self._state[None, : self._columns].copy()
+        last.flags.writeable, self._state = False, before.copy()
+        dabs = self._walked(last, True)
+        self._state = before
+        return dabs
+
+    def whole(self, points: np.ndarray) -> np.ndarray:
+        """Returns all dabs of a stroke with these points, as `walk` wants them."""
+        dabs = self.walk(points)
+        return np.concatenate([dabs, self.rest()]) if self.waits else dabs
+
+    def _walked(self, points: np.ndarray, rest: bool) -> np.ndarray:
+        dabs = np.empty((4 * len(points) + 64, self._width))
         before = self._state.copy()
-        count = walk_points(points, self._state, *self._response, dabs)
+        count = self._count(points, dabs, rest)
         if count > len(dabs):
-            dabs = np.empty((count, DAB))
+            dabs = np.empty((count, self._width))
             self._state = before
-            walk_points(points, self._state, *self._response, dabs)
+            self._count(points, dabs, rest)
         return dabs[:count]
+
+    def _count(self, points: np.ndarray, dabs: np.ndarray, rest: bool) -> int:
+        if self._felt is None:
+            return walk_points(points, self._state, *self._response, dabs)
+        return walk_felt(points, self._state, self._felt, self._key, dabs, rest)
+
+
+def stroke_key(seed: int, level: int, origin: tuple[int, int]) -> int:
+    """Returns what the random numbers of a stroke hang on: its seed and its place."""
+    return fold_key(_DOMAIN, seed, level, *origin)
 
 
 @or_interpreted()

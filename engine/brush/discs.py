@@ -67,6 +67,12 @@ def as_discs(dabs: np.ndarray, shift_x: Real, shift_y: Real, bounds: np.ndarray)
     return discs
 
 
+def turned_discs(dabs: np.ndarray, shift_x: float, shift_y: float, bounds: np.ndarray) -> np.ndarray:
+    """As `as_discs`, followed by what dabs, float64 (n, 6 + k), have beside their first columns."""
+    discs: np.ndarray = as_discs(dabs, shift_x, shift_y, bounds)
+    return np.concatenate([discs, dabs[:, 6:]], axis=1) if dabs.shape[1] > 6 else discs
+
+
 @inlined
 def _span(centre: Real, tile: Int) -> tuple[Real, Real]:
     """Along one axis, how far from `centre` the nearest and the farthest pixel centres of a tile are."""

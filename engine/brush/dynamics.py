@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from engine.brush.checks import Knots
 from engine.brush.settings import SETTINGS, Brush, Curve
 from engine.numeric.kernel import Array, kernel
 
 DYNAMIC = ("radius", "opacity", "flow", "hardness", "spacing")
-RADIUS, OPACITY, FLOW, HARDNESS, SPACING = range(len(DYNAMIC))
 
 _PRESSURE = ((0.0, 0.0), (1.0, 1.0))
 _STEADY = ((0.0, 1.0),)
@@ -33,14 +35,22 @@ class Response(NamedTuple):
     counts: np.ndarray
 
 
-def knots_of(curve: Curve | None) -> tuple[tuple[float, float], ...]:
-    """Returns the knots of a curve; None is the constant 1."""
+def knots_of(curve: Curve | Mapping[str, Knots] | None) -> Knots:
+    """Returns the knots of a curve of pressure; None is the constant 1, and so is what follows other inputs alone."""
+    if isinstance(curve, Mapping):
+        curve = curve.get("pressure")
     if curve is None:
         return _STEADY
     return _PRESSURE if isinstance(curve, str) else curve
 
 
-def evaluate(curve: Curve | None, pressure: np.ndarray) -> np.ndarray:
+def most_of(curve: Curve | Mapping[str, Knots] | None) -> float:
+    """Returns the highest factor that the curves of a setting give."""
+    every = curve.values() if isinstance(curve, Mapping) else (knots_of(curve),)
+    return math.prod(max(value for _, value in knots) for knots in every)
+
+
+def evaluate(curve: Curve | Mapping[str, Knots] | None, pressure: np.ndarray) -> np.ndarray:
     """Returns the factor that a curve gives at each pressure: float64, of the shape of `pressure`."""
     inputs, outputs = np.array(knots_of(curve), np.float64).T
     out: np.ndarray = np.interp(pressure, inputs, outputs)

@@ -18,8 +18,9 @@ from engine.brush.checks import BrushError
 from engine.brush.copies import NO_COPIES, Copies, Torus, one_by_one
 from engine.brush.dabs import Stroker
 from engine.brush.discs import CEILING, CX, CY, RIN2, ROUT
+from engine.brush.print_form import Print
+from engine.brush.prints import for_copies, plain
 from engine.brush.settings import Brush
-from engine.brush.tip import Pattern, for_copies
 from engine.numeric.address import TILE, Rect
 from engine.numeric.kernel import inner, kernel
 
@@ -33,7 +34,8 @@ _HALF = 0.5
 class Footprint:
     """Grows with a stroke from `origin`, on pixels that are `finer` levels finer than its own (coarser, if negative).
 
-    `within`: the only pixels that matter; without it, a stroke that takes too many of them is refused.
+    `within`: the only pixels that matter; without it, a stroke that takes too many of them is refused.  `chance`: what
+    its random numbers hang on (`dabs.stroke_key`).
     """
 
     def __init__(
@@ -41,16 +43,17 @@ class Footprint:
         brush: Brush,
         origin: tuple[int, int],
         finer: int = 0,
-        tip: Pattern | None = None,
+        tip: Print | None = None,
         within: Rect | None = None,
         copies: Copies | Torus = NO_COPIES,
+        chance: int = 0,
     ) -> None:
         dynamics = brush.dynamics
         for name in ("opacity", "flow"):
             dynamics = dynamics.delete(name) if name in dynamics else dynamics
         self._brush = replace(brush, opacity=1.0, flow=1.0, dynamics=dynamics)
-        self._stroker, self._copies = Stroker(self._brush), copies
-        self._scale, self._tip = 2.0**finer, for_copies(tip, copies)
+        self._stroker, self._copies = Stroker(self._brush, chance), copies
+        self._scale, self._tip = 2.0**finer, for_copies(plain(brush) if tip is None else tip, copies)
         self._around = copies.each // (1 + len(copies.copies)) if isinstance(copies, Torus) else 1
         places = [value << finer if finer >= 0 else value >> -finer for value in origin]
         self._origin = places[0], places[1]
@@ -66,7 +69,17 @@ class Footprint:
 
         BrushError, at once, if the stroke becomes too large; the points may not be laid again then.
         """
-        dabs = self._stroker.walk(points)
+        return self._lay(self._stroker.walk(points))
+
+    def whole(self, points: np.ndarray) -> Iterator[tuple[Rect, np.ndarray]]:
+        """As `lay`, of all points of a stroke."""
+        return self._lay(self._stroker.whole(points))
+
+    def rest(self) -> Iterator[tuple[Rect, np.ndarray]]:
+        """As `lay`, of what waits for the stroke to go anywhere: once, as it ends."""
+        return self._lay(self._stroker.rest())
+
+    def _lay(self, dabs: np.ndarray) -> Iterator[tuple[Rect, np.ndarray]]:
         if self._within is None:
             for part in one_by_one(dabs, self._copies):
                 self._count(*self._met(part))
@@ -80,7 +93,7 @@ class Footprint:
         dabs[:, 0] = (dabs[:, 0] + self._shift[0]) * self._scale
         dabs[:, 1] = (dabs[:, 1] + self._shift[1]) * self._scale
         dabs[:, 2] *= self._scale
-        discs = kernels.as_discs(dabs, 0.0, 0.0, kernels.no_bounds())
+        discs = kernels.turned_discs(dabs, 0.0, 0.0, kernels.no_bounds())
         if self._tip is None:
             discs = discs[discs[:, CEILING] >= _HALF]  # a pen that hardly touches lays very many dabs that take nothing
         return discs, _boxes(discs)
@@ -113,7 +126,7 @@ class Footprint:
                 )
 
 
-def _stamp(tip: Pattern, mask: np.ndarray, dabs: tuple[np.ndarray, range, int], box: Rect) -> None:
+def _stamp(tip: Print, mask: np.ndarray, dabs: tuple[np.ndarray, range, int], box: Rect) -> None:
     """Dabs in the shape of the tip's pattern, each for itself: discs, which of them, how many were laid before them."""
     discs, which, laid = dabs
     for index in which:

@@ -11,7 +11,7 @@ import numpy as np
 
 from engine.brush import discs as kernels
 from engine.brush.checks import BrushError
-from engine.brush.tip import Pattern
+from engine.brush.print_form import Print
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import SNAP
 
@@ -72,7 +72,7 @@ class StrokeMask:
     """
 
     def __init__(
-        self, level: int, origin: tuple[int, int], tiles_cap: int = TILES_CAP, tip: Pattern | None = None, each: int = 1
+        self, level: int, origin: tuple[int, int], tiles_cap: int = TILES_CAP, tip: Print | None = None, each: int = 1
     ) -> None:
         self.level = level
         self._tip = tip
@@ -111,11 +111,11 @@ class StrokeMask:
         return Coverage(self.level, dict(self._tiles), self.rect)
 
     def paint(self, dabs: np.ndarray) -> set[TileKey]:
-        """Lays dabs, float64 (n, 6) of `Stroker.add`, in order; returns the tiles that may have changed.
+        """Lays dabs, float64 (n, 6 or more) of `Stroker.add`, in order; returns the tiles that may have changed.
 
         BrushError if the stroke would meet more than `tiles_cap` tiles; dabs before that may have been laid.
         """
-        discs = kernels.as_discs(dabs, *self._shift, self._bounds)
+        discs = kernels.turned_discs(dabs, *self._shift, self._bounds)
         if not len(discs):
             return set()
         codes, which, inside, runs = self._lists_of(max(_PAIRS_OF_ONE, min(_PAIRS, 16 * len(discs))))

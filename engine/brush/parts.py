@@ -14,6 +14,7 @@ from immutables import Map
 
 from engine.brush import checks
 from engine.brush.checks import BrushError
+from engine.brush.tip_shape import tip_shape_json
 from engine.checks.values import described
 from engine.numeric.curves import CURVES, EDGES, Shape
 
@@ -225,4 +226,5 @@ WRITERS: dict[str, Callable[[Any], Any]] = {
     "grain": surface_json,
     "edge": edge_json,
     "tip": tip_json,
+    "shape": tip_shape_json,
 }

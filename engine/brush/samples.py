@@ -8,24 +8,27 @@ import numpy as np
 
 from engine.brush.checks import BrushError
 
-# x, y in pixels of the stroke's level from its origin; pressure 0..1; tilt_x, tilt_y in degrees; t in seconds.
-COLUMNS = 6
+# x, y in pixels of the stroke's level from its origin; pressure 0..1; tilt_x, tilt_y in degrees; t in seconds;
+# and, where a pen tells it, the rotation of its barrel in degrees.
+COLUMNS, MOST_COLUMNS = 6, 7
 _REACH = 2.0**31  # px from the stroke's origin
-_DEFAULTS = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+_DEFAULTS = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def cleaned(points: np.ndarray | Sequence[Sequence[float]]) -> tuple[np.ndarray, int]:
-    """Returns points (n, 2..6) made fit to paint with: float64 (m, 6), and how many were dropped.
+    """Returns points (n, 2..7) made fit to paint with: float64 (m, 6..7), and how many were dropped.
 
     A point whose x, y or pressure is not a number, or whose x or y is infinite, is dropped; pressure is clamped to
-    0..1; a tilt or time that is not finite becomes 0.  BrushError if a point is more than 2^31 px from the origin.
+    0..1; a tilt, time or rotation that is not finite becomes 0.  BrushError if a point is more than 2^31 px from the
+    origin.
     """
     given = np.asarray(points, np.float64)
-    if given.ndim != 2 or not 2 <= given.shape[1] <= COLUMNS:
-        raise BrushError("points", f"an array of shape {given.shape}", "(n, 2 to 6)")
-    table = np.empty((len(given), COLUMNS))
+    if given.ndim != 2 or not 2 <= given.shape[1] <= MOST_COLUMNS:
+        raise BrushError("points", f"an array of shape {given.shape}", "(n, 2 to 7)")
+    columns = max(given.shape[1], COLUMNS)
+    table = np.empty((len(given), columns))
     table[:, : given.shape[1]] = given
-    table[:, given.shape[1] :] = _DEFAULTS[given.shape[1] :]
+    table[:, given.shape[1] :] = _DEFAULTS[given.shape[1] : columns]
     whole = np.isfinite(table)
     if not whole.all():
         good = whole[:, 0] & whole[:, 1] & ~np.isnan(table[:, 2])

@@ -12,10 +12,11 @@ from typing import Any
 
 from immutables import Map
 
-from engine.brush import checks, ops, parts
+from engine.brush import checks, follow_curves, ops, parts
 from engine.brush.checks import BrushError, Knots
 from engine.brush.modes import MODES, Mode
 from engine.brush.parts import COMPONENTS_CAP, Component, Edge, Surface, Tip
+from engine.brush.tip_shape import ROUND, TipShape, tip_shape
 from engine.checks.values import described
 from engine.numeric.curves import Shape
 
@@ -111,8 +112,9 @@ class Brush:
     `height`: what it heaps on the layer of heights in place of its paint, in pixels of the stroke's level, negative to
     carve, "auto" for a quarter of the radius; None: its paint, by whose brightness that layer is as high.  `impasto`:
     how thick its paint lies on other layers, likewise.
-    `dynamics`: by setting, the curve of pen pressure by which its value is multiplied; the value of a setting without
-    a curve stays as it is.  `extra`: members of the JSON form that this version does not know.
+    `shape`: of its tip.  `dynamics`: by target (module `targets`), the curve of pen pressure by which its value is
+    multiplied, or those of several inputs by their names; the value of what has no curve stays as it is.
+    `extra`: members of the JSON form that this version does not know.
     """
 
     radius: float = 16.0
@@ -136,6 +138,7 @@ class Brush:
     example_detail: int = 0
     height: Thickness = None
     impasto: float = 0.0
+    shape: TipShape = ROUND
     dynamics: Map[str, Any] = field(default_factory=lambda: Map({"opacity": "pressure"}))
     extra: Map[str, Any] = field(default_factory=Map)
 
@@ -212,6 +215,7 @@ _RARE: dict[str, Any] = {
     "example_detail": 0,
     "height": None,
     "impasto": 0.0,
+    "shape": ROUND,
 }
 
 
@@ -235,22 +239,6 @@ def _height(value: object, place: str) -> Thickness:
     return AUTO if value == AUTO else checks.number(value, place, -MOST_HEIGHT, MOST_HEIGHT)
 
 
-def _dynamics(value: Any, place: str) -> Map[str, Any]:
-    """Given dynamics replace the default ones; a null curve is none."""
-    if not isinstance(value, Mapping):
-        raise BrushError(place, described(value), 'an object {"opacity": "pressure", ...}')
-    curves = {}
-    for name, curve in value.items():
-        at = f"{place}.{name}"
-        if name not in SETTINGS:
-            curves[name] = checks.frozen(curve)
-        elif curve is not None:
-            curves[name] = (
-                checks.one_of(curve, at, ("pressure",)) if isinstance(curve, str) else checks.knots(curve, at)
-            )
-    return Map(curves)
-
-
 _READERS: dict[str, Callable[[Any, str], Any]] = {
     **{name: _setting(name) for name in SETTINGS},
     "mode": lambda value, place: checks.one_of(value, place, tuple(MODES)),
@@ -269,5 +257,6 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "example_detail": lambda value, place: checks.integer(value, place, 0, MOST_DETAIL),
     "height": _optional(_height),
     "impasto": lambda value, place: checks.number(value, place, -MOST_HEIGHT, MOST_HEIGHT),
-    "dynamics": _dynamics,
+    "shape": tip_shape,
+    "dynamics": follow_curves.dynamics,
 }

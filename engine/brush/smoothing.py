@@ -15,7 +15,7 @@ from engine.brush.steadying import STEADIED
 
 TOLERANCE = 0.1  # px between the curve and its polyline
 PIECES_CAP = 256  # of one curve piece
-_TIME = 5
+_TIME, _TURN = 5, 6
 
 
 class Smoother:
@@ -32,17 +32,19 @@ class Smoother:
         self._follow = STEADIED[way].make(strength, unit) if strength else None
         self._to_the_pen = STEADIED[way].to_the_pen
         self._tolerance = tolerance
-        self._recent = np.empty((0, COLUMNS))  # the last two control points
+        self._recent: np.ndarray | None = None  # the last two control points
         self._raw: np.ndarray | None = None  # the last sample as it came
         self.dropped = 0
 
     @property
     def at(self) -> tuple[float, float] | None:
         """Returns where the brush is, which may trail the pen; None before it begins."""
-        return (float(self._recent[-1, 0]), float(self._recent[-1, 1])) if len(self._recent) else None
+        if self._recent is None or not len(self._recent):
+            return None
+        return float(self._recent[-1, 0]), float(self._recent[-1, 1])
 
     def add(self, samples: np.ndarray) -> np.ndarray:
-        """Returns the points, float64 (m, 6), by which `samples`, float64 (n, 2..6), lengthen the path.
+        """Returns the points, float64 (m, 6..7), by which `samples`, float64 (n, 2..7), lengthen the path.
 
         The path stays half a sample behind the pen until `finish`.  Samples that are not finite are dropped and
         counted; BrushError beyond 2^31 px.
@@ -52,15 +54,17 @@ class Smoother:
         if not len(samples):
             return samples
         first = samples[:1] if self._raw is None else samples[:0]
+        samples[:, _TURN:] = self._unwound(samples[:, _TURN:])
         steadied = self._steadied(samples)
-        controls = np.concatenate([self._recent, first, first, steadied[len(first) :]])
+        before = samples[:0] if self._recent is None else self._recent
+        controls = np.concatenate([before, first, first, steadied[len(first) :]])
         self._recent = controls[-2:]
         self._raw = samples[-1]
         return np.concatenate([first, _pieces(controls, self._tolerance)])
 
     def finish(self) -> np.ndarray:
         """Returns the last points: to the last sample, where the pen left."""
-        if self._raw is None:
+        if self._raw is None or self._recent is None:
             return np.empty((0, COLUMNS))
         before, last = self._recent
         end = self._raw[None] if self._to_the_pen or self._follow is None else last[None]
@@ -68,13 +72,19 @@ class Smoother:
             return _pieces(np.stack([before, last, last]), self._tolerance) if (before != last).any() else end[:0]
         return _pieces(np.concatenate([self._recent, end, end]), self._tolerance)
 
+    def _unwound(self, turns: np.ndarray) -> np.ndarray:
+        """Returns rotations, float64 (n, 0..1) in degrees, without jumps by whole turns."""
+        before = turns[:1] if self._raw is None else self._raw[None, _TURN:]
+        out: np.ndarray = np.unwrap(np.concatenate([before, turns]), axis=0, period=360.0)[1:]
+        return out
+
     def _steadied(self, samples: np.ndarray) -> np.ndarray:
         """Returns the samples with the positions that the brush has as it follows them."""
         if self._follow is None:
             return samples
         out = samples.copy()
         before = self._raw if self._raw is not None else samples[0]
-        x, y = (self._recent[-1] if len(self._recent) else samples[0])[:2].tolist()
+        x, y = (samples[0] if self._recent is None else self._recent[-1])[:2].tolist()
         time = float(before[_TIME])
         for i, sample in enumerate(samples.tolist()):
             passed = sample[_TIME] - time
@@ -88,7 +98,7 @@ def _pieces(controls: np.ndarray, tolerance: float) -> np.ndarray:
     """Returns the polyline of the spline pieces around every control point but the first and the last, each without its
     beginning.  A control point given twice makes the curve pass through it."""
     if len(controls) < 3:
-        return np.empty((0, COLUMNS))
+        return controls[:0]
     before, middle, after = controls[:-2], controls[1:-1], controls[2:]
     start, end = 0.5 * (before + middle), 0.5 * (middle + after)
     bend = (start - middle) + (end - middle)

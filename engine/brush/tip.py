@@ -18,6 +18,7 @@ from engine.brush.copies import Copies, Copy, Torus
 from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
 from engine.brush.ink import Texture, named
 from engine.brush.parts import Tip
+from engine.brush.print_form import TwoInts
 from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect
 from engine.numeric.curves import Shape
@@ -59,14 +60,7 @@ class Pattern:
     key: int
     ways: np.ndarray | None = None
 
-    def lay(
-        self,
-        coverage: np.ndarray,
-        discs: np.ndarray,
-        which: np.ndarray,
-        count: tuple[int, int],
-        corner: tuple[int, int],
-    ) -> None:
+    def lay(self, coverage: Array, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
         """Lays the discs `which` into a tile's coverage, in order, each filled with the pattern.
 
         `count`: the number of the stroke's dab that is the first of `discs`, and how many of them are copies of one;
@@ -110,8 +104,13 @@ def for_copies(pattern: Pattern | None, copies: Copies | Torus) -> Pattern | Non
     told = copies.copies if isinstance(copies, Torus) else copies
     if pattern is None or pattern.windows:
         return pattern
-    ways = np.array([(1.0, 0.0, 0.0, 1.0), *map(_way, told)])
+    ways = ways_of(told)
     return replace(pattern, ways=ways) if (ways != ways[0]).any() else pattern
+
+
+def ways_of(copies: Copies) -> np.ndarray:
+    """Returns the ways of a stroke itself and of its copies, float64 (1 + copies, 4), as a Pattern has them."""
+    return np.array([(1.0, 0.0, 0.0, 1.0), *map(_way, copies)])
 
 
 def _way(copy: Copy) -> tuple[float, float, float, float]:
@@ -174,7 +173,7 @@ def _profile(dx2: np.float32, dy2: np.float32, inner: np.float32, scale: np.floa
 
 
 @inlined
-def _sample_for(radius: float, sizes: Array) -> tuple[int, int]:
+def sample_for(radius: float, sizes: Array) -> tuple[int, int]:
     """Returns where the level begins that is about as wide as a disc, and how many pixels wide it is."""
     start, level = 0, 0
     while level + 1 < sizes.size and sizes[level] > 2.5 * radius:
@@ -190,7 +189,7 @@ def _span(centre: float, outer: float) -> tuple[int, int]:
 
 
 @inlined
-def _between(plane: Array, x: float, y: float, step: float) -> np.float32:
+def between_pixels(plane: Array, x: float, y: float, step: float) -> np.float32:
     """Returns what a square plane has at a place, with straight lines between its pixels."""
     n = plane.shape[0]
     u, v = min(max(x * step - 0.5, 0.0), n - 1.001), min(max(y * step - 0.5, 0.0), n - 1.001)
@@ -241,7 +240,7 @@ def _lay_samples(coverage: Array, discs: Array, which: Array, left: int, top: in
         cx, cy, outer = disc[CX] - left, disc[CY] - top, disc[ROUT]
         ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
         radius = outer - 0.5
-        start, n = _sample_for(radius, sizes)
+        start, n = sample_for(radius, sizes)
         plane = packed[start : start + n * n].reshape(n, n)
         step = n / (2.0 * radius)
         for y in range(max(0, math.floor(cy - outer)), min(TILE, math.ceil(cy + outer))):
@@ -278,7 +277,7 @@ def _lay_copies(
         disc = discs[index]
         way = ways[(number + index) % each * ways.shape[0] // each]
         cx, cy, outer = disc[CX] - left, disc[CY] - top, disc[ROUT]
-        start, n = _sample_for(outer - 0.5, sizes)
+        start, n = sample_for(outer - 0.5, sizes)
         plane = packed[start : start + n * n].reshape(n, n)
         first, last = _span(cx, outer)
         for y in range(*_span(cy, outer)):
@@ -286,7 +285,7 @@ def _lay_copies(
             for x in range(first, last):
                 right = x + 0.5 - cx
                 at = way[0] * right + way[1] * down, way[2] * right + way[3] * down
-                seen = _between(plane, at[0] + (outer - 0.5), at[1] + (outer - 0.5), n / (2.0 * (outer - 0.5)))
+                seen = between_pixels(plane, at[0] + (outer - 0.5), at[1] + (outer - 0.5), n / (2.0 * (outer - 0.5)))
                 d = _profile(right * right, down * down, disc[RIN2], disc[SCALE])
                 room = max(_ZERO, np.float32(disc[CEILING]) - coverage[y, x])
                 coverage[y, x] += room * (np.float32(disc[RATE]) * d * seen)

@@ -16,6 +16,7 @@ from engine.journal import entries
 from engine.journal.records import ASKED, NUMBER, Kind, told_points
 from engine.journal.volume import Continued, End, Volume
 from engine.journal.writing import SYNC_DOWN, Writing
+from engine.painting.points import ALWAYS, like_first
 
 BATCH = 0.04  # seconds that points wait for more of them; none is older than 50 ms when it is written
 
@@ -95,11 +96,14 @@ class Journal:
     def _flush(self) -> None:
         """Writes the points that wait."""
         if self._points:
-            whole = self._points[0] if len(self._points) == 1 else np.concatenate(self._points)
-            payload = NUMBER.pack(self._stroke) + told_points(whole)
-            self._asked.get(self._stroke, []).append((Kind.POINTS, payload))
+            whole = like_first(self._points)
+            told = (
+                Kind.POINTS if whole.shape[1] == ALWAYS else Kind.TURNED,
+                NUMBER.pack(self._stroke) + told_points(whole),
+            )
+            self._asked.get(self._stroke, []).append(told)
             self._points = []
-            self._writing.append(Kind.POINTS, payload)
+            self._writing.append(*told)
 
     def _flush_late(self, now: bool) -> float | None:
         """Writes the points that have waited long enough, or wait `now`; returns when others will have."""

@@ -1,7 +1,7 @@
 """The records of a journal: what each kind of frame tells.
 
 What is asked for has a number, by which what became of it is told.  Commands are told as in a recording, but for the
-points of strokes, which follow as they are: six float64 each.
+points of strokes, which follow as they are: six float64 each, or seven of a pen that tells its rotation.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields, dumps, loads
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT, Command, Stroke, parse, to_json
 from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
-from engine.painting.points import POINT_COLUMNS
+from engine.painting.points import ALWAYS, POINT_COLUMNS
 from engine.painting.select_commands import JOIN_OPS
 from engine.painting.stroke_copies import read_copies, write_copies
 
@@ -28,7 +28,8 @@ LENGTH = struct.Struct("<I")
 NUMBER = struct.Struct("<Q")
 ASKED = struct.Struct("<Qd")  # its number, and when by the clock (seconds since 1970)
 Members = dict[str, object]  # of a JSON object
-_NO_POINTS = np.empty((0, len(POINT_COLUMNS)))
+_NO_POINTS = np.empty((0, ALWAYS))
+_COLUMNS = "columns"  # of a stroke's points, told where they are more
 _ANY_POINT = [[0, 0]]
 _TEXT_CAP = 1 << 26  # bytes
 
@@ -47,6 +48,7 @@ class Kind(IntEnum):
     DID = 9  # carried out: a command that nobody asked for
     CHECKPOINT = 10  # written: the painting as it was after so many commands
     SAVED = 11  # written: the painting's own file
+    TURNED = 13  # asked for: as POINTS, each with its rotation
     BASE = 12  # kept: the bytes of the file that was opened
 
 
@@ -81,11 +83,13 @@ def read_object(payload: bytes) -> Members:
 
 def told_command(command: Command) -> bytes:
     """Returns a command as bytes.  ValueError if it holds what JSON cannot."""
-    points = b""
+    points, about = b"", {}
     if isinstance(command, Stroke):
         points = told_points(command.points)
+        columns = command.points.shape[1]
+        about = {_COLUMNS: columns} if columns > ALWAYS else {}
         command = replace(command, points=_NO_POINTS)
-    text = told_object(to_json(command))
+    text = told_object(to_json(command) | about)
     return LENGTH.pack(len(text)) + text + points
 
 
@@ -97,21 +101,22 @@ def read_command(payload: bytes) -> Command:
     value = read_object(payload[LENGTH.size : end])
     if value.get("do") != "stroke":
         return parse(value)
+    columns = value.pop(_COLUMNS, ALWAYS)
     stroke = parse({**value, "points": _ANY_POINT})
     assert isinstance(stroke, Stroke)
-    return replace(stroke, points=read_points(payload[end:]))
+    return replace(stroke, points=read_points(payload[end:], len(POINT_COLUMNS) if columns != ALWAYS else ALWAYS))
 
 
 def told_points(points: np.ndarray) -> bytes:
-    """Returns the bytes of points, float64 (n, 6)."""
+    """Returns the bytes of points, float64 (n, 6..7)."""
     return np.ascontiguousarray(points, "<f8").tobytes()
 
 
-def read_points(payload: bytes) -> np.ndarray:
+def read_points(payload: bytes, columns: int = ALWAYS) -> np.ndarray:
     """Returns the same points, read-only; FieldError if these are no whole ones."""
-    if len(payload) % (8 * len(POINT_COLUMNS)):
+    if len(payload) % (8 * columns):
         raise FieldError("record", f"{len(payload)} bytes", "whole points")
-    return np.frombuffer(payload, "<f8").reshape(-1, len(POINT_COLUMNS))
+    return np.frombuffer(payload, "<f8").reshape(-1, columns)
 
 
 def told_brush(brush: Brush) -> str:

@@ -23,7 +23,7 @@ from engine.journal.frames import Frame, frames_in
 from engine.journal.records import ASKED, NUMBER, Kind, Members, Touch
 from engine.painting.commands import COUNT_LIMIT, SEED_LIMIT, Command, Stroke
 from engine.painting.pen_points import fitted
-from engine.painting.points import rounded
+from engine.painting.points import ALWAYS, POINT_COLUMNS, like_first, rounded
 
 JOURNAL = "journal-"
 _NAMED = re.compile(JOURNAL + "[0-9]{1,9}")
@@ -59,7 +59,7 @@ class Unanswered:
 
     def fitted(self) -> np.ndarray:
         """Returns the points as the engine takes them, float64 (n, 6)."""
-        return fitted(rounded(np.concatenate(self.points)))[0] if self.points else _NO_POINTS
+        return fitted(rounded(like_first(self.points)))[0] if self.points else _NO_POINTS
 
 
 @dataclass(eq=False, slots=True)
@@ -90,6 +90,7 @@ class _Reader:
             Kind.HEAD: self._head,
             Kind.BEGIN: self._begin,
             Kind.POINTS: self._points,
+            Kind.TURNED: lambda payload: self._points(payload, len(POINT_COLUMNS)),
             Kind.FINISH: self._finish,
             Kind.ABANDON: self._settle,
             Kind.ASK: self._ask,
@@ -110,10 +111,10 @@ class _Reader:
         touch = records.read_touch(payload[ASKED.size :], self._brushes)
         self.story.asked[number] = Unanswered(number, clock, touch)
 
-    def _points(self, payload: bytes) -> None:
+    def _points(self, payload: bytes, columns: int = ALWAYS) -> None:
         asked = self.story.asked.get(NUMBER.unpack_from(payload)[0])
         if asked is not None:
-            asked.points.append(records.read_points(payload[NUMBER.size :]))
+            asked.points.append(records.read_points(payload[NUMBER.size :], columns))
 
     def _finish(self, payload: bytes) -> None:
         asked = self.story.asked.get(NUMBER.unpack_from(payload)[0])

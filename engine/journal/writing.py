@@ -16,7 +16,7 @@ RETRY = 3.0  # seconds between two tries to write what could not be written
 LOOK = 20.0  # seconds after which one looks whether the journal is still there, though nobody paints
 _Tell = Callable[[str | None], None]
 _Wake = Callable[[], None]
-_PARTS = frozenset({Kind.BEGIN, Kind.POINTS})  # of a stroke in progress
+_PARTS = frozenset({Kind.BEGIN, Kind.POINTS, Kind.TURNED})  # of a stroke in progress
 
 
 class Writing:

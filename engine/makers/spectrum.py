@@ -322,7 +322,7 @@ def drawn(design: Design, look: Look | None = None) -> Sheets:
 def with_stroke(sheets: Sheets, stroke: c.Stroke, mirrored: bool = True, arithmetic: int = LIBRARY) -> Sheets:
     """Returns one more stroke, whole."""
     live = touch(sheets, stroke.brush, stroke.layer or SHEETS[0], arithmetic=arithmetic)
-    live.lay(stroke.points + np.array([*stroke.origin, 0, 0, 0, 0]))
+    live.lay(stroke.points + np.array([*stroke.origin, 0, 0, 0, 0, 0])[: stroke.points.shape[1]])
     return stroked(sheets, live, mirrored)
 
 

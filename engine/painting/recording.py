@@ -16,6 +16,7 @@ from typing import Any, BinaryIO, TypeVar
 from immutables import Map
 
 from engine.brush.checks import thawed
+from engine.brush.felt import feels
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.atomic import replacing
@@ -44,6 +45,7 @@ from engine.painting.layering.frame_command import SetFrame
 from engine.painting.layering.ground_command import LayGround, in_full
 from engine.painting.layering.paper_command import SetPaper, read_colour
 from engine.painting.places import BookmarkCommand
+from engine.painting.points import ALWAYS
 
 VERSION = 2  # that is read; older ones too
 VERSION_OF_GRIDS = 2  # from which on the header tells the grid, and the paper
@@ -142,6 +144,7 @@ def version_of(command: Command) -> int:
         return layer_version(command)
     newer = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto) or _lasts(command.brush))
     newer |= isinstance(command, Stroke) and (command.brush.height is not None or command.brush.impasto != 0.0)
+    newer |= isinstance(command, Stroke) and (feels(command.brush) or command.points.shape[1] > ALWAYS)
     newer |= isinstance(command, DefineTexture) and _newer(command.arguments)
     return 2 if region or newer or isinstance(command, _OF_VERSION_2) else 1
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from engine.brush import copies, relief, tip
-from engine.brush.dabs import Stroker
+from engine.brush import copies, prints, relief
+from engine.brush.dabs import Stroker, stroke_key
 from engine.brush.mask import Coverage, StrokeMask
 from engine.canvas import layers
 from engine.canvas.attenuate import fold
@@ -108,9 +108,10 @@ def _lined(painting: Painting, line: Line) -> Coverage:
     if brush is None:
         return outlines.outlined(level, line.origin, line.points[:, :2], "select.outline")
     textures = painting.known_textures
-    pattern = tip.for_copies(tip.resolve(brush, textures, level, painting.seed), line.copies)
+    pattern = prints.for_copies(prints.resolve(brush, textures, level, painting.seed), line.copies)
+    stroker = Stroker(brush, stroke_key(painting.seed, level, line.origin))
     mask = StrokeMask(level, line.origin, tip=pattern, each=copies.each(line.copies))
-    for dabs in copies.copied(Stroker(brush).walk(line.points), line.copies):
+    for dabs in copies.copied(stroker.whole(line.points), line.copies):
         mask.paint(dabs)
     thinning = relief.resolve(brush, textures, level, (painting.seed, painting.seed), "select.stroke.brush")
     return thinning.over(mask.coverage())

@@ -53,6 +53,11 @@ class Bed:
             self.growth = self._change(self.growth, rect, mask)
         self._laid.append(points)
 
+    def finish(self) -> None:
+        """Takes what a stroke that ends where it began takes."""
+        for rect, mask in self._footprint.rest():
+            self.growth = self._change(self.growth, rect, mask)
+
     @property
     def behind(self) -> bool:
         """Tells whether dabs were laid that nobody can see yet."""

@@ -14,15 +14,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from engine.brush import ops, relief, tip
+from engine.brush import ops, prints, relief
 from engine.brush.copies import Copies, Torus, copied, copied_places, each
-from engine.brush.dabs import Stroker
-from engine.brush.dynamics import knots_of
+from engine.brush.dabs import Stroker, stroke_key
+from engine.brush.dynamics import most_of
 from engine.brush.extent import WIDEST
+from engine.brush.felt import feels
 from engine.brush.footprint import Footprint
 from engine.brush.ink import Texture
 from engine.brush.mask import StrokeMask
 from engine.brush.mixture import Mixture, mixture
+from engine.brush.print_form import Print
 from engine.brush.relief import Relief
 from engine.brush.settings import Brush, textures_of
 from engine.checks.field_error import FieldError
@@ -65,7 +67,8 @@ def _places(stroke: Stroke) -> np.ndarray:
 def _reach(stroke: Stroke) -> float:
     """Returns how far from its points a stroke's dabs may lie, pixels."""
     brush = stroke.brush
-    widest = brush.radius * max(factor for _, factor in knots_of(brush.dynamics.get("radius")))
+    scatter = brush.shape.scatter * most_of(brush.dynamics.get("scatter"))
+    widest = brush.radius * most_of(brush.dynamics.get("radius")) * (1.0 + scatter)
     widest *= max([1.0, *(copy.scale for copy in stroke.copies)])
     return widest + 2.0 + (WIDEST if brush.extent else 0.0)
 
@@ -94,7 +97,7 @@ class Seeds(NamedTuple):
 class _Parts:
     """What a brush's coverage depends on besides its dabs, at the level of its strokes."""
 
-    tip: tip.Pattern | None
+    tip: Print | None
     relief: Relief
     mixture: Mixture | None
 
@@ -118,12 +121,14 @@ class Covering:
         if stroke.brush.row.grows:
             return _taken(stroke, at, rect)
         coarser = stroke.level - at
-        parts = self._parts(stroke, textures, seeds) if not coarser else _Parts(None, Relief(), None)
-        corner, dabs = _dabs(stroke, coarser)
+        parts = (
+            self._parts(stroke, textures, seeds) if not coarser else _Parts(prints.plain(stroke.brush), Relief(), None)
+        )
+        corner, dabs = _dabs(stroke, coarser, seeds.own)
         if not _keep_near(dabs, corner, rect.grown(parts.relief.reach + 1)):
             return None
         copies = _copies(stroke)
-        mask = StrokeMask(at, corner, tip=tip.for_copies(parts.tip, copies), each=each(copies))
+        mask = StrokeMask(at, corner, tip=prints.for_copies(parts.tip, copies), each=each(copies))
         mask.paint(dabs)
         coverage = parts.relief.over(mask.coverage())
         out = np.zeros((rect.height, rect.width), np.float32)
@@ -146,7 +151,7 @@ class Covering:
                 try:
                     self._known[key] = _resolved(brush, stroke.level, textures, seeds)
                 except FieldError:  # a texture that is gone: the dabs alone tell
-                    self._known[key] = _Parts(None, Relief(), None)
+                    self._known[key] = _Parts(prints.plain(brush), Relief(), None)
             self._of[whole] = self._known[key]
         return self._of[whole]
 
@@ -161,7 +166,7 @@ def plainly(stroke: Stroke, level: int) -> bool:
     """Tells whether how much a stroke covers of pixels of a level follows from its dabs alone."""
     row = stroke.brush.row
     return not (row.grows or stroke.copies or isinstance(stroke, OnCell)) and (
-        stroke.level > level + _EXACT or spots.is_plain(stroke.brush)
+        not feels(stroke.brush) and (stroke.level > level + _EXACT or spots.is_plain(stroke.brush))
     )
 
 
@@ -185,16 +190,19 @@ def _resolved(brush: Brush, level: int, textures: Textures, seeds: Seeds) -> _Pa
     mixed = None
     if brush.row.uses_op and brush.ink and not ops.chosen(brush.op).by_texture:
         mixed = Mixture(mixture(brush, textures, level, seeds.own), level)
-    return _Parts(tip.resolve(brush, textures, level, seeds.own), relief.resolve(brush, textures, level, seeds), mixed)
+    return _Parts(
+        prints.resolve(brush, textures, level, seeds.own), relief.resolve(brush, textures, level, seeds), mixed
+    )
 
 
 def _copies(stroke: Stroke) -> Copies | Torus:
     return stroke.torus if isinstance(stroke, OnCell) and stroke.torus is not None else stroke.copies
 
 
-def _dabs(stroke: Stroke, coarser: int) -> tuple[tuple[int, int], np.ndarray]:
-    """Returns the stroke's origin and its dabs, float64 (n, 6), in pixels of a level so much coarser."""
-    dabs = np.concatenate([*copied(Stroker(stroke.brush).walk(stroke.points), _copies(stroke))])
+def _dabs(stroke: Stroke, coarser: int, seed: int) -> tuple[tuple[int, int], np.ndarray]:
+    """Returns the stroke's origin and its dabs, float64 (n, 6..), in pixels of a level so much coarser."""
+    stroker = Stroker(stroke.brush, stroke_key(seed, stroke.level, stroke.origin))
+    dabs = np.concatenate([*copied(stroker.whole(stroke.points), _copies(stroke))])
     x, y = stroke.origin
     corner = x >> coarser, y >> coarser
     if coarser:
@@ -219,7 +227,7 @@ def _taken(stroke: Stroke, at: int, rect: Rect) -> np.ndarray | None:
     """Returns 1 where a stroke with an example takes pixels, 0 elsewhere: its dabs' shape is not looked at."""
     found = Footprint(stroke.brush, stroke.origin, at - stroke.level, None, rect, _copies(stroke))
     out = np.zeros((rect.height, rect.width), np.float32)
-    for part, mask in found.lay(stroke.points):
+    for part, mask in found.whole(stroke.points):
         meeting = part.intersect(rect)
         view = out[meeting.slices(rect)]
         np.maximum(view, mask[meeting.slices(part)], out=view)

@@ -69,8 +69,12 @@ def _after(inside: np.ndarray, step: Any, picture: np.ndarray, place: str) -> np
 def lay(taken: np.ndarray, footprint: Footprint, points: np.ndarray, value: bool = True) -> Rect:
     """Sets the pixels of a region, bool (h, w), that more points of a stroke take, and returns a rectangle that holds
     them."""
+    return _set(taken, footprint.lay(points), value)
+
+
+def _set(taken: np.ndarray, covering: Iterable[tuple[Rect, np.ndarray]], value: bool) -> Rect:
     whole, changed = Rect(0, 0, taken.shape[1], taken.shape[0]), Rect(0, 0, 0, 0)
-    for rect, covered in footprint.lay(points):
+    for rect, covered in covering:
         part = rect.intersect(whole)
         if not part.empty:
             taken[part.slices(whole)][covered[part.slices(rect)]] = value
@@ -91,7 +95,7 @@ def _stroke(members: Fields, picture: np.ndarray) -> np.ndarray:
     _, height, width = picture.shape
     taken = np.zeros((height, width), np.bool_)
     footprint = Footprint(stroke.brush, stroke.origin, within=Rect(0, 0, width, height), copies=stroke.copies)
-    lay(taken, footprint, stroke.points)
+    _set(taken, footprint.whole(stroke.points), True)
     return taken
 
 

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from engine.brush import tip
+from engine.brush import prints
 from engine.brush.checks import BrushError
 from engine.brush.footprint import Footprint
 from engine.brush.settings import Brush
@@ -58,9 +58,9 @@ class LiveGrowth(Drawn):
         check_alpha(self.layer, "stroke")
         brush, level, painting = self.brush, self.level, self.before
         grid = grid_of(brush, level)
-        shape = tip.resolve(brush, painting.textures, level, self.own)
+        shape = prints.resolve(brush, painting.textures, level, self.own)
         within = growths.bounds(self.layer.growth, grid) if brush.row.takes_away else None
-        begin = partial(Footprint, brush, self.origin, grid - level, shape, within, self.copies)
+        begin = partial(Footprint, brush, self.origin, grid - level, shape, within, self.copies, self.chance)
         change = change_of(brush, grid, painting, self.own)
         self.bed = Bed(
             self.layer.growth, level, begin, change if self.limit is None else self.limit.within(change, grid)
@@ -87,6 +87,7 @@ class LiveGrowth(Drawn):
         """Returns the painting with the stroke on its layer, refined as far as it is."""
         if self.empty:
             return self.before
+        self.bed.finish()
         if self.bed.growth is self.layer.growth:
             return self.base
         return replace(self.base, root=layers.with_growth(self.base.root, self.layer.name, self.bed.growth))

@@ -156,7 +156,7 @@ def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
     stroke = c.parse({"do": "stroke", **value}, where)
     assert isinstance(stroke, c.Stroke)
     out, whole = inside.copy(), Rect(0, 0, inside.shape[1], inside.shape[0])
-    for rect, taken in Footprint(stroke.brush, stroke.origin, copies=stroke.copies).lay(stroke.points):
+    for rect, taken in Footprint(stroke.brush, stroke.origin, copies=stroke.copies).whole(stroke.points):
         part = rect.intersect(whole)
         if not part.empty:
             out[part.slices(whole)][taken[part.slices(rect)]] = not stroke.brush.row.takes_away

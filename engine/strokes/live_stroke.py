@@ -10,6 +10,7 @@ from immutables import Map
 
 from engine.brush import edits
 from engine.brush.copies import NO_COPIES, Copies
+from engine.brush.dabs import stroke_key
 from engine.brush.settings import Brush
 from engine.canvas.layers import Group
 from engine.canvas.selecting.limit import Limit
@@ -19,6 +20,7 @@ from engine.numeric.prediction import Predictor
 from engine.painting.commands import Stroke
 from engine.painting.layering.onto_member import ONTO_PAINT
 from engine.painting.pen_points import fitted
+from engine.painting.points import like_first
 from engine.painting.value import Painting, Refusal
 from engine.strokes.mask_painting import sheet_for
 from engine.strokes.wrapping import wrapped
@@ -34,8 +36,8 @@ class Drawn:
     mask that is painted on; `dropped`: how many
     points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
     `asked`: the number under which the journal knows its points.
-    `own`: the seed of its random numbers, the painting's where its command (`seed`) has none; `limit`: what the
-    painting's selection leaves of it, None where that is all.
+    `own`: the seed of its random numbers, the painting's where its command (`seed`) has none; `chance`: what its
+    dabs' random numbers hang on; `limit`: what the painting's selection leaves of it, None where that is all.
     `copies`: where it is drawn again, `origin`: from where, on the cell of a layer that is repeated; `areas`: what the
     last points laid may have changed, for it and each copy.
     BrushError if the brush lacks something or cannot be used, Refusal if the layer is locked.
@@ -60,6 +62,7 @@ class Drawn:
         self._told, self._copies = origin, copies
         self.copies, self.origin = wrapped(self.layer, level, origin, copies)
         self.own = painting.seed if seed is None else seed
+        self.chance = stroke_key(self.own, level, origin)
         self.limit = Limit.of(painting.selection, level, cache, self.layer.wrap)
         self.dropped = 0
         self.areas: list[Rect] = []
@@ -95,13 +98,14 @@ class Drawn:
         return self._count == 0
 
     def add(self, points: np.ndarray) -> Rect:
-        """More of what the pen told: float64 (n, 2..6) as POINT_COLUMNS, in pixels of the level from the origin.
+        """More of what the pen told: float64 (n, 2..7) as POINT_COLUMNS, in pixels of the level from the origin.
 
         Points that are no points are dropped and counted, the others brought within their bounds; those of a recording
         are taken as they are.
         Returns the pixels of the level whose preview may have changed.
         """
         table, dropped = fitted(np.atleast_2d(np.asarray(points, np.float64)))
+        table = like_first([*self._points[:1], table])[-len(table) :] if self._points and len(table) else table
         self.dropped += dropped
         return self.lay(table)
 
@@ -124,7 +128,7 @@ class Drawn:
         """Returns the command that does the same; Refusal if there is no point."""
         if self.empty:
             raise Refusal("stroke: found no point, expected one at least")
-        points = np.concatenate(self._points)
+        points = like_first(self._points)
         points.flags.writeable = False
         about = self._named, self.seed, self.extra, self._copies, self.onto
         return Stroke(self.level, self._told, points, self.brush, *about)

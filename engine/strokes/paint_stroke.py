@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from engine.brush import copies as copying
-from engine.brush import edits, relief, tip
+from engine.brush import edits, prints, relief
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.footprint import Footprint
@@ -47,13 +47,13 @@ class LiveStroke(Drawn):
     def _begin(self) -> None:
         brush, level, own, textures = self.brush, self.level, self.own, self.before.known_textures
         made = edits.class_of(brush.mode)
-        self._stroker = Stroker(brush)
-        self._tip = tip.resolve(brush, textures, level, own)
+        self._stroker = Stroker(brush, self.chance)
+        self._tip = prints.resolve(brush, textures, level, own)
         self._mask = self._new_mask()
         self._ink = made.ink_of(brush, textures, level, own)
         looks = made.looks(brush, self._ink)
         source = None if looks.layer is None else reader(self.base.root, looks.layer, level, self.cache)
-        self._scenery = Scenery(looks, brush, (level, self.origin), own, source, self.copies)
+        self._scenery = Scenery(looks, brush, (level, self.origin), own, source, self.copies, self.chance)
         self._relief = relief.resolve(brush, textures, level, (own, self.before.seed))
         self._thinning: Thinning = self._relief if self.limit is None else self.limit.after(self._relief)
         self._edit: Edit | None = None
@@ -62,7 +62,7 @@ class LiveStroke(Drawn):
         self._meeting = Meeting(level, self.origin, brush.radius, None if self.limit is None else self.limit.meets)
 
     def _new_mask(self) -> StrokeMask:
-        laid = tip.for_copies(self._tip, self.copies)
+        laid = prints.for_copies(self._tip, self.copies)
         return StrokeMask(self.level, self.origin, tip=laid, each=copying.each(self.copies))
 
     def _new_bed(self) -> Bed | None:
@@ -70,7 +70,7 @@ class LiveStroke(Drawn):
             return None
         level = self.level
         within = growths.bounds(self.layer.growth, level)
-        begin = partial(Footprint, self.brush, self.origin, 0, self._tip, within, self.copies)
+        begin = partial(Footprint, self.brush, self.origin, 0, self._tip, within, self.copies, self.chance)
 
         def cut(growth: Growth, rect: Rect, mask: np.ndarray) -> Growth:
             return growths.cut(growth, level, rect, mask)
@@ -82,11 +82,12 @@ class LiveStroke(Drawn):
         if not len(points):
             return Rect(0, 0, 0, 0)
         try:
-            dabs = self._stroker.walk(points)
             touched: set[TileKey] = set()
+            stood = self._mask.rect if self._stroker.waits else Rect(0, 0, 0, 0)
+            dabs = self._walked(points)
             for part in copying.copied(dabs, self.copies):
                 touched |= self._mask.paint(part)
-            dirty = tile_bounds(touched)
+            dirty = tile_bounds(touched).union(stood)
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
             whole = self._scenery.lay(points, self._mask)
             told = self.copies.copies if isinstance(self.copies, copying.Torus) else self.copies
@@ -117,12 +118,21 @@ class LiveStroke(Drawn):
 
     def _again(self) -> None:
         """Lays the points that were kept, and nothing else."""
-        self._stroker = Stroker(self.brush)
+        self._stroker = Stroker(self.brush, self.chance)
         self._mask = self._new_mask()
         self._edit = None
         for points in self._points:
-            for part in copying.copied(self._stroker.walk(points), self.copies):
+            for part in copying.copied(self._walked(points), self.copies):
                 self._mask.paint(part)
+
+    def _walked(self, points: np.ndarray) -> np.ndarray:
+        """Returns the dabs of more points.  One that waits for the direction of the stroke is laid as if it had none,
+        and again once that is known, when nothing else is laid yet."""
+        waited = self._stroker.waits
+        dabs = self._stroker.walk(points)
+        if waited:
+            self._mask = self._new_mask()
+        return self._stroker.rest() if self._stroker.waits else dabs
 
     @property
     def predictor(self) -> Predictor | None:
@@ -176,6 +186,8 @@ class LiveStroke(Drawn):
         """Returns the painting with the stroke on its layer."""
         if self.empty:
             return self.before
+        if self.bed is not None:
+            self.bed.finish()
         root, name = self.base.root, self.layer.name
         pyramid = commit.commit(self.layer.pyramid, self.edit, self.cache)
         if pyramid is not self.layer.pyramid:

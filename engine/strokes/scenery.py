@@ -38,13 +38,14 @@ class Scenery:
         seed: int,
         source: Read | None,
         copies: Copies | Torus = NO_COPIES,
+        chance: int = 0,
     ) -> None:
         level, self._origin = place
         self._looks, self._source = looks, source
         steady = brush.dynamics.delete("flow") if "flow" in brush.dynamics else brush.dynamics
         self._brush = replace(brush, opacity=1.0, flow=1.0, hardness=1.0, dynamics=steady.set("opacity", "pressure"))
-        self._stroker = Stroker(self._brush)
-        self._mask = StrokeMask(level, self._origin)
+        self._stroker = Stroker(self._brush, chance)
+        self._level, self._mask = level, StrokeMask(level, self._origin)
         self._copies = copies
         self._seed, self._start = seed, (0, 0)
         self._memo: dict[str, Predictor | None] = {}
@@ -63,7 +64,10 @@ class Scenery:
             left, top = (math.floor(value) for value in points[0, :2])
             self._start, self._begun = (self._origin[0] + left, self._origin[1] + top), True
         if self._looks.pressure:
-            for part in copied(self._stroker.walk(points), self._copies):
+            waited, dabs = self._stroker.waits, self._stroker.walk(points)
+            if waited:
+                self._mask = StrokeMask(self._level, self._origin)
+            for part in copied(self._stroker.rest() if self._stroker.waits else dabs, self._copies):
                 self._mask.paint(part)
         return rect
 

@@ -118,7 +118,7 @@ class Snapper:
             self._ways = (
                 straight_ways((x, y)) if self._straight else ways_at(self._guides, level, origin, (x, y), self._reach)
             )
-            self._held = np.empty((0, 6))
+            self._held = points[:0]
         if not self._ways:
             return points if self.way is None else self._drawn(points)
         self._held = np.concatenate([self._held, points])
@@ -155,4 +155,4 @@ def _cut(points: np.ndarray, step: float) -> np.ndarray:
         far = math.hypot(end[0] - start[0], end[1] - start[1])
         parts = max(1, min(_AT_ONCE, math.ceil(far / step)))
         out += [start + (end - start) * (k / parts) for k in range(1, parts)] + [end]
-    return np.array(out).reshape(-1, 6)
+    return np.array(out).reshape(-1, points.shape[1])

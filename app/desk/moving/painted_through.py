@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +12,7 @@ from app.desk.known import Known
 from engine.brush.copies import Copies, Copy
 from engine.numeric.similarity import IDENTITY, Dyadic, Similarity
 from engine.painting.places import LEVEL_LIMIT
+from engine.painting.points import ALWAYS
 from engine.studio.results import LayerRow
 
 
@@ -48,12 +51,14 @@ class Aimed:
     mirror: bool
 
     def points(self, points: np.ndarray) -> np.ndarray:
-        """Returns points as they are on the layer: float64 (n, 6), x, y and the tilt turned."""
+        """Returns points as they are on the layer: float64 (n, 6..7), x, y, the tilt and the barrel turned."""
         out = points.copy()
         for first, (x, y) in ((0, self.rest), (3, (0.0, 0.0))):
             across, down = points[:, first], -points[:, first + 1] if self.mirror else points[:, first + 1]
             out[:, first] = self.turn.real * across - self.turn.imag * down + x
             out[:, first + 1] = self.turn.imag * across + self.turn.real * down + y
+        turn = math.degrees(cmath.phase(self.turn))
+        out[:, ALWAYS:] = turn - points[:, ALWAYS:] if self.mirror else turn + points[:, ALWAYS:]
         return out
 
     def copies(self, copies: Copies) -> Copies:

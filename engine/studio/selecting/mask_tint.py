@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.brush import copies, relief, tip
+from engine.brush import copies, prints, relief
 from engine.brush.checks import BrushError
-from engine.brush.dabs import Stroker
+from engine.brush.dabs import Stroker, stroke_key
 from engine.brush.mask import Coverage, StrokeMask
 from engine.canvas.selecting.selection import Selection
 from engine.checks.owned import Owned
@@ -28,9 +28,9 @@ class MaskStroke:
         brush, level, seed = begin.brush, begin.level, painting.seed
         textures = painting.known_textures
         self.on, self.takes, self.level = painting.selection, begin.takes, level
-        pattern = tip.for_copies(tip.resolve(brush, textures, level, seed), begin.copies)
+        pattern = prints.for_copies(prints.resolve(brush, textures, level, seed), begin.copies)
         self._mask = StrokeMask(level, begin.origin, tip=pattern, each=copies.each(begin.copies))
-        self._copies, self._stroker = begin.copies, Stroker(brush)
+        self._copies, self._stroker = begin.copies, Stroker(brush, stroke_key(seed, level, begin.origin))
         self._thinning = relief.resolve(brush, textures, level, (seed, seed))
 
     def add(self, points: np.ndarray) -> Rect:

@@ -18,7 +18,7 @@ from engine.brush.footprint import Footprint
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting.points import rounded
+from engine.painting.points import like_first, rounded
 from engine.strokes.example_region import followed, lay, round_brush
 from engine.studio import results
 from engine.studio.textures import texture_requests as tq
@@ -50,7 +50,7 @@ class _Stroke:
 
     def to_step(self) -> Map[str, Any]:
         """Returns the step as a definition tells it."""
-        stroke = c.to_json(c.Stroke(0, (0, 0), np.concatenate(self.points), round_brush(self.radius)))
+        stroke = c.to_json(c.Stroke(0, (0, 0), like_first(self.points), round_brush(self.radius)))
         step: Map[str, Any] = frozen({"op": self.op, "stroke": {k: v for k, v in stroke.items() if k != "do"}})
         return step
 

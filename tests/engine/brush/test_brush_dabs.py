@@ -151,7 +151,7 @@ def test_points_too_far_away_are_refused(far):
 
 def test_the_shape_of_points_is_checked():
     with pytest.raises(BrushError, match="shape"):
-        Stroker(Brush()).add(np.zeros((3, 7)))
+        Stroker(Brush()).add(np.zeros((3, 8)))
 
 
 def test_the_number_of_dabs_is_bounded():

@@ -215,7 +215,7 @@ HOSTILE = {
     "no points": ({"do": "stroke"}, "points: found nothing"),
     "empty points": ({"do": "stroke", "points": []}, "points: found"),
     "one number": ({"do": "stroke", "points": [[1]]}, "points[0]: found"),
-    "seven numbers": ({"do": "stroke", "points": [[1, 2, 0, 0, 0, 0, 0]]}, "points[0]: found"),
+    "eight numbers": ({"do": "stroke", "points": [[1, 2, 0, 0, 0, 0, 0, 0]]}, "points[0]: found"),
     "a word in a point": ({"do": "stroke", "points": [[0, 0], [1, "2"]]}, "points[1]: found"),
     "a flag in a point": ({"do": "stroke", "points": [[0, True]]}, "points[0]: found"),
     "null in a point": ({"do": "stroke", "points": [[0, None]]}, "points[0]: found"),

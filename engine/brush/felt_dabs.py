@@ -1,0 +1,122 @@
+"""The walk of strokes whose dabs hang on more than the pen's pressure; see `dabs` for that of all others.
+
+There is a first dab as soon as the stroke's direction is known, where that counts; what never goes anywhere has it by
+`rest`, with the direction to the right.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from engine.brush import felt as f
+from engine.brush import inputs
+from engine.brush.felt import Feeling, chance, pace_at, plain_chance, respond_felt, sense, way_at
+from engine.brush.targets import ANGLE, FLOW, HARDNESS, OPACITY, RADIUS, RATIO, SCATTER, SPACING
+from engine.numeric.elementary import cos, sin
+from engine.numeric.kernel import Array, inner, kernel
+from engine.numeric.stand_in import or_interpreted
+
+STEP_FLOOR = 0.25  # px
+SPACING_FLOOR = 0.02  # radii: a brush of 4000 px must not lay down 16,000 discs for every one of its radii
+SEGMENT_CAP = 1 << 18  # dabs between two points: farther points get wider spacing
+STROKE_CAP = 1 << 22  # dabs of a stroke: after that, at most one place for each point
+ROUND_COLUMNS, TURNED_COLUMNS = 6, 9  # columns: x, y, radius, opacity, flow, hardness; cosine, sine of its angle, ratio
+_ASIDE, _AWAY = 32, 33  # slots of random numbers
+_TURN = 6.283185307179586
+_DEGREE = 0.017453292519943295
+
+
+@inner
+def _write(x: float, y: float, now: Array, dab: Array) -> None:
+    dab[0], dab[1] = x, y
+    dab[2], dab[3], dab[4], dab[5] = now[RADIUS], now[OPACITY], now[FLOW], now[HARDNESS]
+    if dab.shape[0] >= TURNED_COLUMNS:
+        angle = (now[ANGLE] - 360.0 * math.floor(now[ANGLE] / 360.0)) * _DEGREE
+        dab[6], dab[7], dab[8] = cos(angle), sin(angle), now[RATIO]
+
+
+@inner
+def _place(
+    point: Array,
+    state: Array,
+    part: float,
+    felt: Feeling,
+    key: np.uint64,
+    sensed: Array,
+    now: Array,
+    dabs: Array,
+    made: int,
+) -> tuple[int, float]:
+    """Writes the dabs of one place; returns how many there are now, and how far it is to the next place."""
+    x, y = (
+        state[f.AT_X] + (point[f.AT_X] - state[f.AT_X]) * part,
+        state[f.AT_Y] + (point[f.AT_Y] - state[f.AT_Y]) * part,
+    )
+    first, step = int(state[f.IS_LAID]) * felt.plan[f.HAS_COUNT], 0.0
+    for k in range(felt.plan[f.HAS_COUNT]):
+        sensed[inputs.DAB_NUMBER] = float(first + k)
+        respond_felt(felt, sensed, key, first + k, now)
+        if k == 0:
+            step = max(now[SPACING], SPACING_FLOOR) * now[RADIUS]
+        dx, dy = 0.0, 0.0
+        if now[SCATTER] > 0.0:
+            aside = chance(key, first + k, _ASIDE) * _TURN
+            away = math.sqrt(chance(key, first + k, _AWAY)) * now[SCATTER] * now[RADIUS]
+            dx, dy = away * cos(aside), away * sin(aside)
+        if made < dabs.shape[0]:
+            _write(x + dx, y + dy, now, dabs[made])
+        made += 1
+    return made, step
+
+
+@inner
+def _stand(point: Array, state: Array) -> None:
+    """The point becomes the last one."""
+    for column in range(min(point.shape[0], f.AT_TURN + 1)):
+        state[column] = point[column]
+
+
+@inner
+def _go_on(point: Array, state: Array, length: float, felt: Feeling) -> None:
+    """The walk has come to a point."""
+    x, y = way_at(point, state, length, length, felt.soft)
+    timed, pace = pace_at(point, state, length)
+    state[f.IS_WAY_X], state[f.IS_WAY_Y], state[f.IS_PACE] = x, y, pace
+    state[f.IS_TIMED] = 1.0 if timed else 0.0
+    state[f.IS_GONE] += length
+    _stand(point, state)
+
+
+@or_interpreted(chance=plain_chance)
+@kernel
+def walk_felt(points: Array, state: Array, felt: Feeling, key: np.uint64, dabs: Array, rest: bool) -> int:
+    """Advances `state` over the points; writes the dabs that fit into `dabs` and returns how many there are.
+
+    `rest`: no more comes, so that a dab that still waits for its direction is laid without.
+    """
+    now, sensed = np.empty(felt.values.shape[0]), np.zeros(felt.used.shape[0] + 1)
+    made, each = 0, felt.plan[f.HAS_COUNT] * max(1, felt.hairs.shape[0])
+    for i in range(points.shape[0]):
+        point = points[i]
+        if state[f.IS_BEGUN] == 0.0:
+            _stand(point, state)
+            state[f.IS_BEGUN] = 1.0
+        length = math.sqrt(
+            (point[0] - state[0]) * (point[0] - state[0]) + (point[1] - state[1]) * (point[1] - state[1])
+        )
+        waits = state[f.IS_LAID] == 0.0 and felt.plan[f.HAS_WAY] and length == 0.0 and not rest
+        floor = max(STEP_FLOOR, length * each / SEGMENT_CAP)
+        at = state[f.IS_LEFT]
+        while at <= length and not waits:
+            part = at / length if length > 0.0 else 0.0
+            sense(point, state, part, length, felt, sensed)
+            made, step = _place(point, state, part, felt, key, sensed, now, dabs, made)
+            state[f.IS_LAID] += 1.0
+            if state[f.IS_LAID] * each > STROKE_CAP:
+                floor = max(floor, length)
+            at += max(floor, step)
+        state[f.IS_LEFT] = at if waits else at - length
+        _go_on(point, state, length, felt)
+    return made

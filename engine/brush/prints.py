@@ -1,0 +1,175 @@
+"""How the dabs of a stroke are laid where they are more than round: in the shape of a texture, or of an ellipse.
+
+An ellipse has the length of two radii along its own axis and is as broad as its ratio says.  A place p, in px from its
+middle, is brought by a matrix W onto the round tip: q = W p.  There the profile is that of module `discs`, whose rim of
+one pixel is as wide as W makes a pixel, |W^T q| / |q|, so that narrow tips are as sharp as round ones.  One that is
+thinner than a pixel is a pixel thick and fades.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from engine.brush import tip
+from engine.brush.copies import NO_COPIES, Copies, Torus
+from engine.brush.discs import CEILING, CX, CY, DISC, RATE, RIN2, ROUT
+from engine.brush.felt import is_turned
+from engine.brush.ink import Texture
+from engine.brush.print_form import Print, TwoInts
+from engine.brush.settings import Brush
+from engine.brush.tip import Pattern, between_pixels, sample_for, ways_of
+from engine.numeric.address import TILE
+from engine.numeric.hashing import mix64
+from engine.numeric.kernel import Array, inner, kernel
+from engine.texture.image import ImageSource
+
+_PLAIN, _SAMPLE, _WINDOW = range(3)
+_ROOM = 1.5  # px around an ellipse that are looked at
+_THINNEST = 0.5  # px: half the breadth
+
+_ZERO = np.float32(0.0)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Oval:
+    """Ellipses, each turned and squeezed as its own columns say: cosine and sine of its angle, and its ratio, after
+    those of a disc; filled with a `pattern`, if there is one.  `ways`: as of a `Pattern`, one of each copy."""
+
+    pattern: Pattern | None
+    ways: np.ndarray
+
+    def lay(self, coverage: Array, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
+        """Lays the discs `which` into a tile's coverage, as `Pattern.lay`."""
+        kind, key, planes, sizes = _PLAIN, 0, np.ones(4, np.float32), np.array([2])
+        if self.pattern is not None:
+            kind = _WINDOW if self.pattern.windows else _SAMPLE
+            key, planes, sizes = self.pattern.key, self.pattern.planes, self.pattern.sizes
+        fill = kind, np.uint64(key), planes, sizes
+        _lay_ovals(coverage, discs, which, count, corner, self.ways, fill)
+
+    def of_copy(self, number: int) -> Oval:
+        """Returns the ellipses of one copy alone."""
+        return replace(self, ways=self.ways[number : number + 1])
+
+
+def resolve(
+    brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str = "brush"
+) -> Print | None:
+    """Returns what the dabs of a brush look like in a stroke at `level`; None if they are round.  BrushError names the
+    field."""
+    pattern = tip.resolve(brush, textures, level, seed, where)
+    return Oval(pattern, ways_of(NO_COPIES)) if is_turned(brush) else pattern
+
+
+def plain(brush: Brush) -> Print | None:
+    """As `resolve`, without what textures make of them."""
+    return Oval(None, ways_of(NO_COPIES)) if is_turned(brush) else None
+
+
+def for_copies(made: Print | None, copies: Copies | Torus) -> Print | None:
+    """Returns that with which the dabs of a stroke and of its copies are laid, each turned and mirrored with its
+    copy."""
+    if isinstance(made, Oval):
+        return replace(made, ways=ways_of(copies.copies if isinstance(copies, Torus) else copies))
+    return tip.for_copies(made, copies) if isinstance(made, Pattern) else made
+
+
+@inner
+def _onto(disc: Array, way: Array, ratio: float) -> tuple[float, float, float, float]:
+    """The matrix that brings a place of a dab onto the round tip: row by row."""
+    cos, sin, thin = disc[DISC], disc[DISC + 1], 1.0 / ratio
+    return (
+        cos * way[0] + sin * way[2],
+        cos * way[1] + sin * way[3],
+        (cos * way[2] - sin * way[0]) * thin,
+        (cos * way[3] - sin * way[1]) * thin,
+    )
+
+
+@inner
+def _profile_of(x: float, y: float, onto: tuple[float, float, float, float], radius: float, inside: float) -> float:
+    """1 within, 0 outside, at a place of the round tip."""
+    square = x * x + y * y
+    if square == 0.0:
+        return 1.0
+    a, b = onto[0] * x + onto[2] * y, onto[1] * x + onto[3] * y
+    pixel = 0.5 * math.sqrt((a * a + b * b) / square)
+    outer, inner_ = radius + pixel, max(0.0, min(inside, radius - pixel))
+    v = 1.0 - max(0.0, min(1.0, (square - inner_ * inner_) / (outer * outer - inner_ * inner_)))
+    return v * v * (3.0 - 2.0 * v)
+
+
+@inner
+def _span_at(down: float, onto: tuple[float, float, float, float], reach: float) -> tuple[float, float]:
+    """Where the row `down` px below the middle lies within `reach` of the round tip: its middle, and how far to each
+    side; below 0 for nowhere."""
+    a, b, c, d = onto
+    square, mixed_ = a * a + c * c, (a * b + c * d) * down
+    rest = mixed_ * mixed_ - square * ((b * b + d * d) * down * down - reach * reach)
+    return -mixed_ / square, math.sqrt(rest) / square if rest >= 0.0 else -1.0
+
+
+@inner
+def _sampled(x: float, y: float, radius: float, planes: Array, sizes: Array) -> np.float32:
+    """What a sample laid out over the round tip has at a place of it."""
+    start, n = sample_for(radius, sizes)
+    plane = planes[start : start + n * n].reshape(n, n)
+    return between_pixels(plane, x + radius, y + radius, n / (2.0 * radius))
+
+
+@kernel
+def _lay_ovals(
+    coverage: Array,
+    discs: Array,
+    which: Array,
+    count: tuple[int, int],
+    corner: tuple[int, int],
+    ways: Array,
+    fill: tuple[int, np.uint64, Array, Array],
+) -> None:
+    """M' = M + max(0, ceiling - M) rate d, for each disc in turn, d being its profile, times what fills it."""
+    number, each = count
+    for index in which:
+        disc = discs[index]
+        radius = disc[ROUT] - 0.5
+        ratio = max(disc[DISC + 2], min(1.0, _THINNEST / radius))
+        fade = min(1.0, disc[DISC + 2] * radius / _THINNEST)
+        way = ways[(number + index) % each * ways.shape[0] // each]
+        onto = _onto(disc, way, ratio)
+        wide = (radius * ratio + _ROOM) / (radius + _ROOM)
+        around = _onto(disc, way, wide)
+        cx, cy = disc[CX] - corner[0], disc[CY] - corner[1]
+        windowed = _window(disc, cx, cy, (number + index) // each, fill)
+        ceiling, rate, inside = np.float32(disc[CEILING] * fade), np.float32(disc[RATE]), math.sqrt(disc[RIN2])
+        reach = radius + _ROOM
+        for y in range(max(0, math.floor(cy - reach)), min(TILE, math.ceil(cy + reach))):
+            down = y + 0.5 - cy
+            middle, half = _span_at(down, around, reach)
+            if half < 0.0:
+                continue
+            first, last = max(0, math.ceil(cx + middle - half - 0.5)), min(TILE, math.floor(cx + middle + half + 0.5))
+            for x in range(first, last):
+                right = x + 0.5 - cx
+                u, v = onto[0] * right + onto[1] * down, onto[2] * right + onto[3] * down
+                d = np.float32(_profile_of(u, v, onto, radius, inside))
+                if fill[0] == _SAMPLE:
+                    d *= _sampled(u, v, radius, fill[2], fill[3])
+                if fill[0] == _WINDOW:
+                    n = fill[3][0]
+                    d *= fill[2][(y - windowed[1]) % n * n + (x - windowed[0]) % n]
+                coverage[y, x] += max(_ZERO, ceiling - coverage[y, x]) * (rate * d)
+
+
+@inner
+def _window(
+    disc: Array, cx: float, cy: float, number: int, fill: tuple[int, np.uint64, Array, Array]
+) -> tuple[int, int]:
+    """Where the window of a dab begins in its field, in pixels of the tile, as `Pattern` has it."""
+    h = mix64(fill[1] ^ mix64(np.uint64(number)))
+    room = np.uint64(max(1, fill[3][0] - 2 * int(disc[ROUT]) - 3))
+    x = math.floor(cx - disc[ROUT]) - np.int64((h & np.uint64(0xFFFFFFFF)) % room)
+    return x, math.floor(cy - disc[ROUT]) - np.int64((h >> np.uint64(32)) % room)
