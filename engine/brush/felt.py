@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from immutables import Map
 
 from engine.brush import inputs
 from engine.brush.dynamics import DYNAMIC, knots_of
@@ -74,6 +76,14 @@ def feels(brush: Brush) -> bool:
         isinstance(curve, Mapping) or (name in FOLLOWERS and name not in DYNAMIC)
         for name, curve in brush.dynamics.items()
     )
+
+
+def steadied(brush: Brush) -> Brush:
+    """Returns a brush with a round tip, which follows nothing but the pressure."""
+    if not feels(brush):
+        return brush
+    kept = {name: knots_of(brush.dynamics[name]) for name in DYNAMIC if name in brush.dynamics}
+    return replace(brush, shape=ROUND, dynamics=Map(kept))
 
 
 def is_turned(brush: Brush) -> bool:

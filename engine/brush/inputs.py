@@ -30,6 +30,11 @@ class Input:
         """Tells whether it has no natural end."""
         return self.most == _FARTHEST
 
+    @property
+    def in_pixels(self) -> bool:
+        """Tells whether it is measured in pixels of the stroke's level."""
+        return self.unit.startswith("px")
+
 
 INPUTS: dict[str, Input] = {
     row.name: row

@@ -163,7 +163,10 @@ class Brush:
     def magnified(self, by: float) -> Brush:
         """Returns the same brush on another scale: its radius, and the heights that it lays."""
         height = self.height if self.height is None or isinstance(self.height, str) else _within(self.height * by)
-        return replace(self, radius=self.radius * by, height=height, impasto=_within(self.impasto * by))
+        dynamics = follow_curves.magnified(self.dynamics, by)
+        return replace(
+            self, radius=self.radius * by, height=height, impasto=_within(self.impasto * by), dynamics=dynamics
+        )
 
     @property
     def rgb(self) -> tuple[float, float, float]:

@@ -14,9 +14,9 @@ from app.desk.desk import Desk
 from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
 from app.desk.hand import go_on_with_brush
-from app.desk.knots import at
-from app.panels.brush import example_section, move_choice, shape_choice
+from app.panels.brush import example_section, move_choice, shape_choice, tip_section
 from app.panels.brush.brush_list import BrushList
+from app.panels.brush.dynamics_section import DynamicsSection
 from app.panels.brush.operations import Operations
 from app.panels.brush.save_brush import SaveBrush
 from app.panels.brush.size_row import draw_radius, draw_steadying
@@ -24,29 +24,12 @@ from app.panels.brush.symmetry_section import SymmetrySection
 from app.panels.brush.texturing import Texturing
 from app.panels.brush.thickness_section import draw_thickness
 from app.panels.controls import widgets as w
-from app.panels.controls.curve_editor import CurveEditor
 from app.panels.options.fill_options import FILL_TOOLS
 from app.tools.tools import TOOLS
 from engine.brush.modes import MODES
 from engine.brush.settings import SETTINGS
 from engine.studio.requests import Swatch
-from engine.studio.results import CurveRow
 
-_PRESSURES: dict[str, Any] = {
-    "pressure": "pressure",
-    "soft": ((0.0, 0.15), (0.35, 0.6), (1.0, 1.0)),
-    "firm": ((0.0, 0.0), (0.6, 0.25), (1.0, 1.0)),
-}
-_PRESSURE_ROWS = (
-    CurveRow("even", "Even", "The same whatever the pressure", (1.0, 1.0)),
-    CurveRow("pressure", "Pressure", "In proportion to the pressure", (0.0, 1.0)),
-    CurveRow(
-        "soft", "Soft pen", "Light touches count for more", tuple(at(_PRESSURES["soft"], i / 20) for i in range(21))
-    ),
-    CurveRow(
-        "firm", "Firm pen", "Light touches count for less", tuple(at(_PRESSURES["firm"], i / 20) for i in range(21))
-    ),
-)
 _TALL = ("operations",)  # sections of a mode for which the list of presets makes no room
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
 _ACROSS = 7  # buttons of tools in a row
@@ -65,7 +48,7 @@ class BrushPanel:
     """Draws the left column."""
 
     def __init__(self) -> None:
-        self._texturing, self._curves = Texturing(), CurveEditor()
+        self._texturing, self._dynamics = Texturing(), DynamicsSection()
         self._operations, self._saving, self._list = Operations(), SaveBrush(), BrushList()
         self._symmetry = SymmetrySection()
         self._sections: dict[str, Callable[[Desk], None]] = {
@@ -109,8 +92,10 @@ class BrushPanel:
         unfolded += self._texturing.draw(desk)
         if w.section("Symmetry", "Strokes painted several times in one step", opened=False):
             unfolded += _height_of(lambda: self._symmetry.draw(desk))
-        if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
-            unfolded += _height_of(lambda: self._dynamics(desk))
+        if w.section("Tip shape", "Slender, turned with the stroke or the pen, strewn", opened=False):
+            unfolded += _height_of(lambda: tip_section.draw(desk))
+        if w.section("Pen and motion", "What pressure, tilt, speed, chance change", opened=False):
+            unfolded += _height_of(lambda: self._dynamics.draw(desk))
         self._below = imgui.get_cursor_pos().y - top - unfolded
 
     def _preview(self, desk: Desk) -> None:
@@ -183,34 +168,12 @@ class BrushPanel:
         draw_thickness(desk)
         draw_steadying(desk)
 
-    def _dynamics(self, desk: Desk) -> None:
-        for name, row in SETTINGS.items():
-            if not row.dynamic:
-                continue
-            curve = desk.hand.brush.dynamics.get(name)
-            hint = f"How the pen's pressure changes the {row.label.lower()}: left a light touch, right a firm one"
-            changed, drawn = self._curves.row(row.label, _shown(curve), _PRESSURE_ROWS, hint)
-            if changed:
-                desk.hand.change(dynamics=_with(desk.hand.brush.dynamics, name, drawn))
-
 
 def _height_of(draw: Callable[[], None]) -> float:
     """Draws something; how high it is."""
     top = imgui.get_cursor_pos().y
     draw()
     return imgui.get_cursor_pos().y - top
-
-
-def _shown(curve: Any) -> Any:
-    """Returns a curve of pressure as the editor knows it: by its name if it is one of PRESSURE."""
-    return next((name for name, knots in _PRESSURES.items() if curve is not None and knots == curve), curve)
-
-
-def _with(dynamics: Any, name: str, curve: Any) -> Any:
-    """Returns the dynamics with another curve for a setting, none if that is None."""
-    if curve is None:
-        return dynamics.delete(name) if name in dynamics else dynamics
-    return dynamics.set(name, _PRESSURES.get(curve, curve) if isinstance(curve, str) else curve)
 
 
 def _percent(value: float, form: str, lo: float, hi: float, unit: str) -> tuple[float, str, float, float]:

@@ -42,12 +42,12 @@ class CurveEditor:
         self._held: int | None = None
         self._pen: tuple[float, float] | None = None
 
-    def row(self, label: str, curve: Curve, rows: Rows, hint: str) -> tuple[bool, Curve]:
+    def row(self, label: str, curve: Curve, rows: Rows, hint: str, spare: float = 0.0) -> tuple[bool, Curve]:
         """Returns a line with the curve's name and its picture, which opens the editor.  (changed, curve)
 
-        `rows`: the named curves; None is the first of them, which reset brings back.
+        `rows`: the named curves; None is the first of them, which reset brings back.  `spare`: room left beside it.
         """
-        width, height = imgui.get_content_region_avail().x, imgui.get_frame_height()
+        width, height = imgui.get_content_region_avail().x - spare, imgui.get_frame_height()
         corner = imgui.get_cursor_screen_pos()
         if imgui.invisible_button(f"curve {label}", ImVec2(width, height)):
             imgui.open_popup(f"edit {label}")

@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from engine.brush.felt import steadied
+from engine.brush.follow_curves import magnified
 from engine.brush.settings import MOST_DETAIL, Brush
 from engine.canvas.composite import composite
 from engine.canvas.reading import layer_planes
@@ -18,6 +20,7 @@ from engine.session.apply import apply
 from engine.studio.requests import Swatch
 
 _GROUND = "#5b6470"
+_LEANING, _SECONDS = 55.0, 0.6  # of the pen: degrees at the end of the stroke, and how long that takes
 _SMALLER = 2  # octaves by which an example is made smaller for a thumbnail, at most: finer ones leave nothing to see
 _BARS = 8  # of paint on the ground
 _COLOURS = ("#23262e", "#7c2f3b", "#c8643c", "#e2b04a", "#6f9a4c", "#3d8f93", "#41609f", "#b9bfc9")  # to be changed
@@ -41,7 +44,7 @@ def painted(request: Swatch, of: Painting) -> np.ndarray:
 
 def _fill(brush: Brush, width: int, height: int) -> list[c.Stroke]:
     """Returns the whole patch covered."""
-    cover = replace(brush, radius=float(height), hardness=1.0, opacity=1.0, flow=1.0, spacing=0.5)
+    cover = replace(steadied(brush), radius=float(height), hardness=1.0, opacity=1.0, flow=1.0, spacing=0.5)
     points = _points([[0.0, height / 2, 1.0], [float(width), height / 2, 1.0]])
     return [c.Stroke(0, (0, 0), points, cover)]
 
@@ -53,7 +56,10 @@ def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
     y = height * (0.5 + 0.2 * np.sin(t * math.tau))
     pressure = np.sin(np.pi * (0.06 + 0.9 * t)) ** 0.8
     radius = min(max(brush.radius, 2.0), height * 0.24)
-    wave = c.Stroke(0, (0, 0), _points(np.stack([x, y, pressure], axis=1)), replace(brush, radius=radius))
+    leaning = np.stack([_LEANING * t, np.zeros(len(t)), _SECONDS * t], axis=1)  # ever more, as the pen goes along
+    points = _points(np.concatenate([np.stack([x, y, pressure], axis=1), leaning], axis=1))
+    dynamics = magnified(brush.dynamics, radius / max(brush.radius, 0.5))
+    wave = c.Stroke(0, (0, 0), points, replace(brush, radius=radius, dynamics=dynamics))
     if brush.row.grows:
         smaller = min(_SMALLER, max(0, round(math.log2(brush.radius / radius))))  # its texture, as the stroke is
         detail = min(brush.example_detail + smaller, MOST_DETAIL)
@@ -78,9 +84,9 @@ def _at_home(brush: Brush, painting: Painting, width: int) -> Brush:
 
 
 def _points(rows: object) -> np.ndarray:
-    """x, y, pressure as a stroke's points."""
+    """x, y, pressure, and perhaps the rest, as a stroke's points."""
     given = np.asarray(rows, np.float64)
     points = np.zeros((len(given), 6))
-    points[:, :3] = given
+    points[:, : given.shape[1]] = given
     points.flags.writeable = False
     return points
