@@ -40,7 +40,7 @@ def _turn(y: np.ndarray, x: np.ndarray) -> np.ndarray:
     return out
 
 
-WAYS: dict[str, Ways] = {"sphere": _ball, "torus": _ring}
+WRAPPED: dict[str, Ways] = {"sphere": _ball, "torus": _ring}
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +63,7 @@ class ObjectMap:
 
     def colours(self, points: np.ndarray, finest: float) -> np.ndarray:
         """Returns the texture's colours at points (N, 3), as `Lookup.colours`."""
-        across, up, wide, high = WAYS.get(self.name, _column)((points - 0.5) / self.scale)
+        across, up, wide, high = WRAPPED.get(self.name, _column)((points - 0.5) / self.scale)
         height, width = self.levels[0].shape[:2]
         around = max(1, round(wide * self.scale))
         upwards = max(1, round(high * self.scale * width / height))
