@@ -52,11 +52,14 @@ class Around:
 
     def __init__(self, level: int, rect: Rect, planes: Planes | None) -> None:
         self.level, self.rect, self.planes = level, rect, planes
-        self.blank = planes is None
+        self.blank, self._whole = planes is None, False
         self.moved: np.ndarray | None = None
 
     def with_inks(self, inks: tuple[Instance, ...]) -> Planes:
         """Returns the planes, which from now on are contiguous and have room for these inks."""
+        if self._whole and self.planes is not None and (not inks or inks == self.planes.inks):
+            return self.planes
+        self._whole = True
         if self.planes is None:
             size = self.rect.height, self.rect.width
             self.planes = Planes(np.zeros((COLOURS + 3 * len(inks), *size), np.float32), inks)

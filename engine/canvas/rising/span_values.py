@@ -19,6 +19,28 @@ def _scattered_plainly(values: np.ndarray, spans: np.ndarray, out: np.ndarray, t
     out[:, top : top + len(spans)][:, within(spans, out.shape[2])] = values.reshape(len(out), -1)
 
 
+def _clipped_plainly(spans: np.ndarray, by: int, width: int, out: np.ndarray) -> int:
+    """As `clip`, plainly."""
+    out[:] = np.clip(spans.astype(np.int32) + np.int32(by), 0, width)
+    out[out[:, 0] >= out[:, 1]] = 0
+    return int((out[:, 1] - out[:, 0]).sum())
+
+
+@or_plain(_clipped_plainly)
+@uncounted
+def clip(spans: Array, by: int, width: int, out: Array) -> int:
+    """out, int32 (h, 2), = what of columns `spans`, uint8 (h, 2), lies in 0..width when they are moved `by` to the right:
+    0, 0 where nothing does.  Returns how many columns that are."""
+    count = 0
+    for y in range(spans.shape[0]):
+        first, last = max(int(spans[y, 0]) + by, 0), min(int(spans[y, 1]) + by, width)
+        if first >= last:
+            first = last = 0
+        out[y, 0], out[y, 1] = first, last
+        count += last - first
+    return count
+
+
 @or_plain(_gathered_plainly)
 @uncounted
 def gather(data: Array, top: int, spans: Array, out: Array) -> None:

@@ -149,7 +149,7 @@ class Ways:
 
     def lead(self, record: Record, other: Record) -> bool:
         """Tells whether a record may be made of another one, and notes that it is from now on."""
-        ahead = list(_way(other))
+        ahead = list(_way(other)) if isinstance(other.held, CodedData) else [other]
         behind = self._behind.get(record, 0)
         if record in ahead or behind + len(ahead) > WAY - 1:
             return False

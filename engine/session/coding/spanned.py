@@ -11,7 +11,7 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.canvas.rising import span_values
-from engine.canvas.store import Record, Since
+from engine.canvas.store import Record
 from engine.session.coding.coded_records import CodedData, Ways, joined_bytes, split_bytes
 
 _LESS = 2  # a record's own bytes are such a multiple of what is kept of it, at least: else it stays whole
@@ -68,22 +68,14 @@ def spanned(record: Record, other: Record) -> SpannedData | None:
     since, data = other.since, record.held
     if since is None or since.of() is not record or not isinstance(data, np.ndarray):
         return None
-    top, spans = _within(since, record)
-    count = int((spans[:, 1] - spans[:, 0]).sum())
+    at, rect = since.at, record.rect
+    first, last = max(at.y0, rect.y0), min(at.y1, rect.y1)
+    told = since.spans[max(first - at.y0, 0) : max(last - at.y0, 0)]
+    spans = np.empty(told.shape, np.int32)
+    count = span_values.clip(told, at.x0 - rect.x0, rect.width, spans)
     if (count * len(data) * data.itemsize + _ROW * len(spans)) * _LESS > data.nbytes:
         return None
     values = np.empty(count * len(data), data.dtype)
-    span_values.gather(data, top, spans, values)
+    span_values.gather(data, first - rect.y0, spans, values)
     packed = spans.astype(np.uint8).tobytes() + values.tobytes()
-    return SpannedData(record.rect, record.inks, data.dtype, other, 0, packed, top, len(spans), False)
-
-
-def _within(since: Since, record: Record) -> tuple[int, np.ndarray]:
-    """Returns the first row of a record's data that changed, and of the rows from there on the columns: int32 (h, 2),
-    (0, 0) for none."""
-    at, rect = since.at, record.rect
-    first, last = max(at.y0, rect.y0), min(at.y1, rect.y1)
-    spans = since.spans[max(first - at.y0, 0) : max(last - at.y0, 0)].astype(np.int32) + np.int32(at.x0 - rect.x0)
-    np.clip(spans, 0, rect.width, out=spans)
-    spans[spans[:, 0] >= spans[:, 1]] = 0
-    return first - rect.y0, spans
+    return SpannedData(rect, record.inks, data.dtype, other, 0, packed, first - rect.y0, len(spans), False)

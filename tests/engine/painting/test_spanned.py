@@ -57,6 +57,15 @@ def test_what_lies_in_spans_is_gathered_plainly_and_put_back_by_kernels_as_plain
 
 
 @settings(deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(-130, 130), st.integers(0, 128))
+def test_spans_are_clipped_by_the_kernel_as_plainly(seed, by, width):
+    spans = np.random.default_rng(seed).integers(0, 129, (9, 2)).astype(np.uint8)
+    one, other = np.empty((9, 2), np.int32), np.empty((9, 2), np.int32)
+    assert span_values.clip(spans, by, width, one) == span_values.clip.plain(spans, by, width, other)
+    assert np.array_equal(one, other)
+
+
+@settings(deadline=None)
 @given(st.integers(0, 2**32 - 1), st.booleans())
 def test_a_record_is_what_it_was_wherever_the_next_one_lies(seed, deflated):
     """The next one may be cropped to less, or cover more; it differs within the spans alone."""
