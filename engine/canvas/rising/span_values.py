@@ -29,8 +29,8 @@ def _clipped_plainly(spans: np.ndarray, by: int, width: int, out: np.ndarray) ->
 @or_plain(_clipped_plainly)
 @uncounted
 def clip(spans: Array, by: int, width: int, out: Array) -> int:
-    """out, int32 (h, 2), = what of columns `spans`, uint8 (h, 2), lies in 0..width when they are moved `by` to the right:
-    0, 0 where nothing does.  Returns how many columns that are."""
+    """out, int32 (h, 2), = what of columns `spans`, uint8 (h, 2), lies in 0..width when they are moved `by` to the
+    right: 0, 0 where nothing does.  Returns how many columns that are."""
     count = 0
     for y in range(spans.shape[0]):
         first, last = max(int(spans[y, 0]) + by, 0), min(int(spans[y, 1]) + by, width)
