@@ -92,7 +92,8 @@ def picture_of(
 ) -> Picture:
     """Returns a rectangle of a painting, or its frame, as a picture to export; it has at most `most` pixels each way,
     or as many as a picture in one file may have."""
-    from engine.archive.export import PICTURE_SIDE, Picture
+    from engine.archive.export import Picture
+    from engine.checks.picture_sides import PICTURE_SIDE
 
     if at is None:
         return Picture(painting, layer=layer, depth=depth)

@@ -9,7 +9,6 @@ from pathlib import Path
 from app.canvas.view import Place
 from app.desk.known import Known
 from app.desk.outside.found_map import FoundMap
-from engine.light.light import Light
 from engine.painting.commands import Command
 from engine.painting.layer_commands import BakePlacement
 from engine.painting.places import Bookmark
@@ -44,11 +43,11 @@ class Asked:
     """`dialog`: a row of app.panels.dialogs.DIALOGS that is to be shown; `shown`: the one that is; `then`: goes on once
     unsaved changes are dealt with, `otherwise` if they are not to be, `why`: what would take the painting's place;
     `after_save`: goes on once the painting is saved, `after_film` once the film is made; `overtaken`: the save that is
-    asked about; `quit`: the window is to go; `export_level`: how deep the exported picture goes,
-    `export_light`: in which light; `texture`: a name under which one is being made, which joins the ink when the
-    painting has it; `merge`: what merges layers once that is told, ink going no finer than `merge_level`; `bake`: what
-    makes paint of a placement and loses detail; `film`: what is chosen of the film that is asked for; `bringing`: a
-    picture that was given to the painting, and to which place of the canvas; `ground`: a map that is to be laid."""
+    asked about; `quit`: the window is to go; `texture`: a name under which one is being made, which joins the ink
+    when the painting has it; `merge`: what merges layers once that is told, ink going no finer than `merge_level`;
+    `bake`: what makes paint of a placement and loses detail; `film`: what is chosen of the film that is asked for;
+    `bringing`: a picture that was given to the painting, and to which place of the canvas; `ground`: a map that is to
+    be laid."""
 
     dialog: str = ""
     shown: str = ""
@@ -59,8 +58,6 @@ class Asked:
     after_film: Then | None = None
     overtaken: Overtaken | None = None
     quit: bool = False
-    export_level: int = 0
-    export_light: Light | None = None
     texture: str = ""
     merge: Command | None = None
     merge_level: int = 0

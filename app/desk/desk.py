@@ -16,6 +16,7 @@ from app.canvas.view import Place, View, view_of
 from app.desk.adjusting.adjust_state import AdjustState
 from app.desk.asked import Asked, Then
 from app.desk.examples.example_state import Entry, ExampleState
+from app.desk.exporting.export_state import ExportState
 from app.desk.filling.fill_state import FillState
 from app.desk.framing.frame_state import FrameState
 from app.desk.guides.guide_state import GuideState
@@ -137,6 +138,7 @@ class Desk:
     places: PlaceState = field(default_factory=PlaceState)
     guides: GuideState = field(default_factory=GuideState)
     adjusting: AdjustState = field(default_factory=AdjustState)
+    export: ExportState = field(default_factory=ExportState)
     framing: FrameState = field(default_factory=FrameState)
     masks: MaskState = field(default_factory=MaskState)
     stack: StackState = field(default_factory=StackState)

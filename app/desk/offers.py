@@ -16,9 +16,9 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from app.desk.desk import Desk, FileWork
+from app.desk.exporting.export_areas import export_wish
 from app.desk.folders import size_text
 from app.faults.log import log_file
-from engine.studio.requests import Export
 
 COPIED = 8192  # bytes of the log that are copied, at most
 
@@ -46,7 +46,7 @@ def _export_again(desk: Desk, path: Path | None) -> None:
     if path is None:
         desk.asked.show("export")
     else:
-        desk.post(Export(path, desk.asked.export_level, light=desk.asked.export_light))
+        desk.post(export_wish(desk, path))
 
 
 # By what a notice is about: what to do, with the notice's file.

@@ -11,6 +11,7 @@ from typing import BinaryIO
 import numpy as np
 
 from engine.canvas.layers import Group, pictured
+from engine.checks.picture_sides import PICTURE_SIDE
 from engine.files.atomic import replacing
 from engine.files.fault import WriteError
 from engine.files.png_writer import PngWriter
@@ -23,8 +24,6 @@ from engine.painting.grown import settled_alone, settled_root
 from engine.painting.lighting import Lighting
 from engine.painting.rendering import Progress, folded_layers, rows_of
 from engine.painting.value import Painting
-
-PICTURE_SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
 
 
 @dataclass(frozen=True, slots=True)

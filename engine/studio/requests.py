@@ -89,12 +89,17 @@ class Save:
 
 @dataclass(frozen=True, slots=True)
 class Export:
-    """The frame at `level` (or the rectangle `area` of that level), as .png or .tif; `light`: that it is lit by."""
+    """The frame at `level` (or the rectangle `area` of that level), as .png, .tif or .exr of so many bits a channel;
+    `light`: that it is lit by; `transparent`: without the paper; `apart`: each layer in a file of its own, whose name
+    ends with the layer's."""
 
     path: Path
     level: int = 0
     area: Rect | None = None
     light: Light | None = None
+    depth: int = 8
+    transparent: bool = False
+    apart: bool = False
 
 
 @dataclass(frozen=True, slots=True)

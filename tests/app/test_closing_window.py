@@ -8,13 +8,13 @@ import pytest
 from PIL import Image
 from xserver import let_keys_repeat
 
+from app.desk.exporting.export_state import FINER
 from app.loop import _told
-from app.panels.dialogs.dialogs import EXPORT_LEVELS
 from engine.studio import results
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 
-LEVEL_4 = (4 - EXPORT_LEVELS[0] + 0.5) / (EXPORT_LEVELS[1] - EXPORT_LEVELS[0] + 1)  # its part of the slider's width
+LEVEL_4 = (4 - FINER[0] + 0.5) / (FINER[1] - FINER[0] + 1)  # its part of the slider's width
 SIZE = (16384, 12288)
 
 
@@ -31,7 +31,7 @@ def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkey
     app.canvas()
     assert shown(app)
     app.keys("ctrl+e")
-    app.click(app.at("Level", LEVEL_4))
+    app.click(app.at("Finer", LEVEL_4))
     app.settled()
     let_keys_repeat(app.display, True)
     try:

@@ -17,6 +17,7 @@ from app.panels.dialogs.bake_dialog import BakeDialog
 from app.panels.dialogs.bring_in import BringIn
 from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.erode_dialog import ErodeDialog
+from app.panels.dialogs.export_dialog import ExportDialog
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.frame_dialog import FrameDialog
 from app.panels.dialogs.ground_dialog import GroundDialog
@@ -31,7 +32,6 @@ from engine.studio.land.wear_records import StopWearing
 from engine.studio.requests import New
 
 MOST_SIDE = 1 << 20
-EXPORT_LEVELS = (-4, 8)
 _SIZES = (("Screen", 1280, 800), ("Square", 1024, 1024), ("Wide", 1920, 1080), ("A4, 150 dpi", 1240, 1754))
 
 
@@ -168,37 +168,6 @@ def _side(name: str, value: int, hint: str, width: float) -> int:
     return value
 
 
-class ExportDepth:
-    """How deep the exported picture goes; then where it goes."""
-
-    title = "Export picture"
-
-    def __init__(self, desk: Desk) -> None:
-        self._lit = desk.light.on
-
-    def draw(self, desk: Desk) -> bool:
-        """Draws it into the present window."""
-        em = imgui.get_font_size()
-        imgui.text_unformatted("Each level deeper doubles the picture, with new detail.")
-        imgui.set_next_item_width(em * 20)
-        flags = imgui.SliderFlags_.always_clamp
-        _, desk.asked.export_level = imgui.slider_int("Level", desk.asked.export_level, *EXPORT_LEVELS, flags=flags)
-        low = imgui.get_item_rect_min()
-        w.placed("Level", low, ImVec2(low.x + em * 20, imgui.get_item_rect_max().y))
-        w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
-        size = desk.known.frame.zoomed(desk.asked.export_level)
-        imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")
-        _, self._lit = w.tick("As lit", self._lit, "In the light of View > Light, with its sun, depth and gloss")
-        imgui.spacing()
-        chosen = w.default_button("Choose file…", "Choose where to write it", width=em * 8)
-        if chosen:
-            desk.light.keep_to(desk.known.scene)
-            desk.asked.export_light = desk.light.light if self._lit else None
-            desk.asked.show("export to")
-        imgui.same_line()
-        return not (w.text_button("Cancel", "Go back", width=em * 7) or chosen)
-
-
 class Unsaved:
     """Asks what is to become of changes before something replaces the painting."""
 
@@ -307,7 +276,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "new": lambda desk: NewPainting(),
     "open": file_browser.opening,
     "save as": file_browser.saving,
-    "export": ExportDepth,
+    "export": ExportDialog,
     "export to": file_browser.exporting,
     "film": lambda desk: FilmDialog(),
     "select_change": lambda desk: ChangeSelection(),

@@ -15,13 +15,14 @@ from immutables import Map
 from app import icons, theme
 from app.desk.desk import Desk
 from app.desk.examples import example_work
+from app.desk.exporting.export_areas import export_wish
+from app.desk.exporting.export_state import EXPORT_FORMATS
 from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
 from app.desk.outside import bringing, pictured
 from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
 from engine.studio.filing.film_requests import MakeFilm
-from engine.studio.requests import Export
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
 _PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
@@ -29,7 +30,7 @@ _MESHES = (".obj", ".stl", ".glb")
 _BROUGHT = (*_PICTURES, ".exr", ".ora", ".psd", ".psb")
 SAVES = (".ora",)
 FILMS = (".mp4", ".webm", ".webp", ".avif", ".gif", ".png")
-EXPORTS = (".png", ".tif")
+EXPORTS = (".png", ".tif", ".exr")
 Then = Callable[[Desk, Path], None]
 
 
@@ -206,8 +207,9 @@ def saving(desk: Desk) -> SystemDialog | Browser:
 
 def exporting(desk: Desk) -> SystemDialog | Browser:
     """Asks where to export the picture."""
-    start, level, light = _folder(desk) / f"{desk.known.stem}.png", desk.asked.export_level, desk.asked.export_light
-    return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level, light=light)))
+    ending = EXPORT_FORMATS[desk.export.format].ending
+    start, endings = _folder(desk) / f"{desk.known.stem}{ending}", (ending, *(e for e in EXPORTS if e != ending))
+    return _chooser("Export picture", start, endings, True, lambda d, path: d.post(export_wish(d, path)))
 
 
 def filming(desk: Desk) -> SystemDialog | Browser:

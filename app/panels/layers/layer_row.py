@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app import icons, theme
+from app import icons
 from app.actions import actions
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
@@ -15,7 +15,6 @@ from engine.studio.stack.stack_requests import layer_picture
 
 _EYE = "Show or hide\nAlt: show only this, and all again"
 _WIDE = 1.4  # of a picture's height
-_GROUND = (0.5,) * 3  # under pictures of layers: white and black show on it, and the colour of the paper
 _MORE = (  # actions, by groups
     ("show_only", "duplicate", "show_again", "merge_down", "merge_group", "clear", "adjust"),
     ("clip", "mask_full", "mask_empty", "wrap"),
@@ -53,9 +52,7 @@ def small_picture(desk: Desk, row: LayerRow) -> None:
     if imgui.invisible_button("picture", size):
         desk.post(Do(c.SelectLayer(row.name)))
     w.named(f"picture of {row.name}")
-    painter = imgui.get_window_draw_list()
-    painter.add_rect_filled(at, to, theme.packed(_GROUND))
-    painter.add_image(shown, at, to)
+    imgui.get_window_draw_list().add_image(shown, at, to)
     imgui.same_line(0, 4 * desk.scale)
 
 

@@ -11,11 +11,12 @@ from pathlib import Path, PurePath
 
 import numpy as np
 
-from engine.archive.export import PICTURE_SIDE, Picture, lighting_of, shown_root
+from engine.archive.export import Picture, lighting_of, shown_root
 from engine.archive.ladder import deepzoom, zarr_folder
 from engine.archive.ladder.blocks import Source, in_order
 from engine.archive.ladder.in_place import put_in_place
 from engine.archive.ladder.rungs import Block, Ladder, grid
+from engine.checks.picture_sides import PICTURE_SIDE
 from engine.files.atomic import replacing
 from engine.files.fault import WriteError
 from engine.files.tiff_levels import TIFF_TILE, TiffLevel, tiff_tile, write_tiff_levels

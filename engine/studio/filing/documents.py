@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
 from engine.archive import export, saving
 from engine.archive.imports import open_image
+from engine.canvas import layers
+from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
-from engine.files.fault import FileError
+from engine.checks.roles import REFERENCE
+from engine.files.fault import FileError, WriteError
 from engine.journal.heads import FileStamp
 from engine.keeping import memory
 from engine.keeping.fingerprint import Fingerprint, fingerprint
@@ -27,6 +30,8 @@ from engine.studio.filing.document import Document, held_by
 
 READING = 0.2  # the part of opening a recording that reading it takes
 MOST_NOTES = 100  # that a list of what is missing has
+_FORBIDDEN = frozenset('/\\:*?"<>|')  # in names of files, on one system or another
+_LONGEST = 120  # characters of a layer's name that such a name has
 
 
 class Progress(Protocol):
@@ -151,6 +156,32 @@ def save(
 
 
 def write_picture(request: q.Export, painting: Painting) -> None:
-    """Writes the frame, or the rectangle asked for, of a painting grown to its end, as a picture; WriteError if that
-    failed."""
-    export.export(request.path, export.Picture(painting, request.level, request.area, light=request.light))
+    """Writes the frame, or the rectangle asked for, of a painting grown to its end, as a picture, or one of each layer;
+    WriteError if that failed."""
+    whole = export.Picture(
+        painting, request.level, request.area, None, request.depth, request.transparent, request.light
+    )
+    if not request.apart:
+        export.export(request.path, whole)
+        return
+    names = [node.name for node in layers.walk(painting.root) if not isinstance(node, Group) and node.role != REFERENCE]
+    paths = beside(request.path, names)
+    there = next((path for path in paths if path.exists()), None)
+    if there is not None:
+        raise WriteError(there, "found a file of that name, expected one that is free for each layer")
+    for name, path in zip(names, paths, strict=True):
+        export.export(path, replace(whole, layer=name, transparent=True))
+
+
+def beside(path: Path, names: Sequence[str]) -> list[Path]:
+    """Returns paths of files for layers of these names, each another one: what a file's name cannot have is `_`."""
+    found: dict[str, Path] = {}
+    for name in names:
+        plain = (
+            "".join("_" if c in _FORBIDDEN or not c.isprintable() else c for c in name[:_LONGEST]).strip(" .") or "_"
+        )
+        stem, number = f"{path.stem} {plain}", 2
+        while stem.casefold() in found:
+            stem, number = f"{path.stem} {plain} {number}", number + 1
+        found[stem.casefold()] = path.with_name(stem + path.suffix)
+    return list(found.values())

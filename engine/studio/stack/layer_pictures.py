@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.layers import Group, Layer, Node
@@ -20,6 +22,7 @@ from engine.studio.easel import Easel
 from engine.studio.stack.stack_requests import layer_picture
 
 SIDE = 64  # pixels at most
+_GREY = 120  # under what is not painted
 _MANY = 16  # layers of a group: of more no picture is made, which would take too long at once
 _Seen = tuple[object, ...]  # what a picture hangs on
 
@@ -55,7 +58,15 @@ class LayerPictures(Owned):
         plain = replace(node, mask=None)
         read = partial(layer_planes, cache=self._easel.session.cache)
         pixels = composite(layers.alone(plain, painting.root), level, area, read)
-        self._easel.send(results.Picture(layer_picture(node.name), results.frozen(to_premul8(pixels))))
+        self._easel.send(results.Picture(layer_picture(node.name), results.frozen(_on_grey(to_premul8(pixels)))))
+
+
+def _on_grey(pixels: np.ndarray) -> np.ndarray:
+    """Returns pixels, uint8 (h, w, 4), over a grey on which white, black and the colour of paper show, opaque."""
+    out = pixels.copy()
+    out[..., :3] += ((255 - pixels[..., 3:].astype(np.uint16)) * _GREY // 255).astype(np.uint8)
+    out[..., 3] = 255
+    return out
 
 
 def _area(frame: Rect) -> tuple[int, Rect]:

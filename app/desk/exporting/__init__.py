@@ -1,0 +1,1 @@
+"""What is chosen of a picture that is to be exported."""
