@@ -10,6 +10,7 @@ from app.desk.land import land_state
 from app.desk.land.land_ring import ring_on_land
 from app.desk.land.land_state import LandState
 from engine.numeric.address import Rect
+from engine.terrain.seen.choosing import choose_tiles
 from engine.terrain.seen.eye import Eye
 from engine.terrain.seen.land_tiles import QUADS, TEXEL_RIM, TEXELS, LandTile, TileKey
 
@@ -101,3 +102,27 @@ def test_the_brush_lies_on_the_land_as_a_stroke_of_its_radius_would(state):
     down, across = (max(at[i] for at in ring) - min(at[i] for at in ring) for i in (1, 0))
     assert down < 0.8 * across  # it is seen from the side
     assert ring_on_land(state, 120.0, 22.0, 12.0) == []
+
+
+class _Everywhere(dict):
+    """Holds flat ground wherever it is asked for."""
+
+    def __contains__(self, key):
+        return True
+
+    def get(self, key, default=None):
+        return flat(key)
+
+
+def test_slow_pictures_have_fewer_triangles_and_quick_ones_more(state):
+    state.look(Eye(Fraction(32), Fraction(60), 12.0, 0.0, -25.0), 0.0)
+    counts = []
+    for seconds in (0.1, 0.001):
+        for _ in range(200):
+            state.adapt(seconds)
+        counts.append(len(choose_tiles(state.sight(), _Everywhere()).drawn))
+    slow, quick = counts
+    assert slow >= 4
+    assert quick >= 2 * slow
+    state.adapt(0.027)  # what is neither stays
+    assert len(choose_tiles(state.sight(), _Everywhere()).drawn) == quick

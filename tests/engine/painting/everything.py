@@ -234,6 +234,8 @@ def _heights() -> Iterator[tuple[str, list[Any]]]:
     hill = stroke(height=7.3, ink=[ink("rock", period=23.1)], radius=29)
     yield "heaped", [GROUND, land, hill, stroke(*BACK, level=2, height="auto"), stroke(mode="smooth", height=2)]
     yield "eroded", [GROUND, land, hill, {"do": "erode", "rect": [0, 9, 7, 72, 50], "talus": 0.37, "seed": 3}]
+    rect = {"do": "ground", "path": "blob.png", "rect": [0, 5, -7, 61, 43], "range": [0, 20.3], "rim": 3.7}
+    yield "grounded", [GROUND, land, rect, hill]
     yield "impasto", [GROUND, stroke(impasto=3.7, radius=9), stroke(*BACK, mode="erase", radius=5)]
 
 
