@@ -175,7 +175,7 @@ def _upright(pixels: np.ndarray, orientation: int) -> np.ndarray:
 
 def _by_pillow(file: BinaryIO, name: str, form: str, limits: Limits) -> tuple[np.ndarray, Meta]:
     """Pillow's decoder for one named format only; whatever it raises comes out as FileError."""
-    from PIL import Image, ImageOps
+    from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
         with _warnings, warnings.catch_warnings():
@@ -192,6 +192,10 @@ def _by_pillow(file: BinaryIO, name: str, form: str, limits: Limits) -> tuple[np
                 pixels = np.array(upright.convert("RGBA"))
     except (FileError, MemoryError, Cancelled):
         raise
+    except UnidentifiedImageError as error:
+        raise FileError(name, f"damaged {form}: its head is not that of a {form}") from error
+    except Image.DecompressionBombError as error:
+        raise FileError(name, f"more pixels than may be; expected at most {limits.pixels}") from error
     except Exception as error:  # a decoder of hostile bytes may raise anything
         raise FileError(name, f"damaged {form}: {error or type(error).__name__}") from error
     return pixels, Meta(form.lower(), _about_profile(profile or b""))

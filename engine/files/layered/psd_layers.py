@@ -6,6 +6,7 @@ What has no pixels (adjustments, effects) cannot be shown; it is told in the not
 from __future__ import annotations
 
 import logging
+import struct
 import warnings
 from collections.abc import Iterator
 from typing import BinaryIO
@@ -21,6 +22,8 @@ from engine.files.layered.layer_sheet import FoundGroup, FoundLayers, FoundPictu
 from engine.files.limits import LIMITS, memory_cap
 
 _FILE = 1 << 31  # bytes of a file, which is read as a whole
+_HEAD = struct.Struct(">4s8xHII")  # channels, height, width
+_SIDE, _CHANNELS = 300_000, 56  # as the format has them
 _PLAIN = (ColorMode.RGB, ColorMode.GRAYSCALE)
 _BLENDS = {
     BlendMode.PASS_THROUGH: "src-over",
@@ -44,6 +47,18 @@ _BLENDS = {
 # A channel that cannot be unpacked would be black: it is a damaged file.  What is wrong is told in our own line.
 warnings.filterwarnings("error", category=PSDDecompressionWarning)
 logging.getLogger("psd_tools").setLevel(logging.CRITICAL)
+
+
+def _check_head(file: BinaryIO, name: str) -> None:
+    """Raises FileError if a head tells a size that none has; whatever else is wrong, the library finds."""
+    head = file.read(_HEAD.size)
+    file.seek(0)
+    if len(head) < _HEAD.size:
+        return
+    sign, channels, height, width = _HEAD.unpack(head)
+    if sign == b"8BPS" and not (0 < width <= _SIDE and 0 < height <= _SIDE and 0 < channels <= _CHANNELS):
+        found = f"{width} x {height} pixels in {channels} channels"
+        raise FileError(name, f"{found}; expected 1 to {_SIDE} each way, 1 to {_CHANNELS}")
 
 
 class PsdLayers:
@@ -72,6 +87,7 @@ class PsdLayers:
             raise self._fault(f"layer {shown(layer.name, 30)}", error) from error
 
     def _opened(self, file: BinaryIO) -> PSDImage:
+        _check_head(file, self._name)
         most = min(_FILE, memory_cap() // 4)
         try:
             return PSDImage.open(file, memory_cap() // 2, ParseLimits(most, 2 * most, max_nesting_depth=LIMITS.depth))

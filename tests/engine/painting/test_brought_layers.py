@@ -211,3 +211,13 @@ def test_damaged_files_are_refused_in_a_line_or_read(kind, request, tmp_path):
             refused.append(str(error))
     assert len(refused) > 20
     assert all(line.startswith(f"{path}: ") and "\n" not in line for line in refused)
+
+
+@pytest.mark.parametrize(("at", "value"), [(12, b"\0\x3c"), (14, b"\x7f\xff\xff\xff"), (18, bytes(4))])
+def test_a_head_that_no_photoshop_file_has_is_told_in_plain_words(psd, at, value):
+    data = psd.read_bytes()
+    psd.write_bytes(data[:at] + value + data[at + len(value) :])
+    with pytest.raises(
+        FileError, match=r"garden.psd: \d+ x \d+ pixels in \d+ channels; expected 1 to 300000 .*, 1 to 56"
+    ):
+        read_layers(psd)

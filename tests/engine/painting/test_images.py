@@ -315,3 +315,12 @@ def test_a_picture_that_nobody_wants_any_more_is_not_read_to_its_end(tmp_path, f
         read_image(tmp_path / "a", cancelled=cancelled)
     assert len(looks) == 3
     assert np.array_equal(read_image(tmp_path / "a", cancelled=lambda: False)[0], read_image(tmp_path / "a")[0])
+
+
+@pytest.mark.parametrize(("size", "told"), [(0xFFFFFFFF, "more pixels than"), (0, "its head is not that of a JPEG")])
+def test_a_jpeg_whose_head_lies_is_told_in_plain_words(size, told):
+    data = samples()["jpeg"]
+    at = data.index(b"\xff\xc0") + 5
+    with pytest.raises(FileError, match=f"^a: .*{told}") as caught:
+        read_image(data[:at] + struct.pack(">I", size) + data[at + 4 :], "a")
+    assert "<" not in str(caught.value)
