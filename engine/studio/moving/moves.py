@@ -68,7 +68,8 @@ class Moves(Owned):
         try:
             if request.selected:
                 lifted = self._part(painting, name, CUT)
-                part, finest = replace(lifted.layer, pyramid=lifted.part), lifted.part.finest or 0
+                part = replace(lifted.layer, pyramid=lifted.part, mask=None)
+                finest = lifted.part.finest or 0
                 alone = replace(painting, root=layers.substitute(painting.root, name, part))
             self._asked = painting, name, finest, reach_of(alone, name, request.level, session.cache)
         except LayerError:

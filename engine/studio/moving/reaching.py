@@ -18,6 +18,7 @@ from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.placing.rounds import by_ids
 from engine.canvas.reading import layer_planes
+from engine.canvas.selecting.mask_sheet import sheet_of
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.similarity import Similarity
@@ -33,8 +34,12 @@ Reach = Generator[None, None, SourcePart]  # pauses between pieces of work
 
 def reach_of(painting: Painting, name: str, level: int, cache: TileCache | None = None) -> Reach:
     """Returns how far a node reaches, a placement in the places of its source, in pixels of a level, or of a coarser
-    one where it is large; it pauses on the way."""
-    return _Reaches(painting, cache).of(layers.find(painting.root, name), level)
+    one where it is large; a layer without paint as far as its mask does.  It pauses on the way."""
+    node = layers.find(painting.root, name)
+    found = yield from _Reaches(painting, cache).of(node, level)
+    if found.rect.empty and isinstance(node, Layer) and node.mask is not None:
+        found = yield from _painted(sheet_of(node), level, cache)
+    return found
 
 
 def picture_reach(painting: Painting, cache: TileCache | None = None) -> Reach:

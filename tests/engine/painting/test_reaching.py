@@ -150,3 +150,14 @@ def test_thousands_of_placements_in_one_another_are_taken_hold_of_and_baked():
     assert poses[1].similarity.shown(held.rect, 0, 0) == shown
     session.do(c.parse({"do": "layer", "bake": "p1999"}))
     assert found(session, "p1999") == SourcePart(0, shown)
+
+
+def test_a_layer_of_nothing_but_a_mask_reaches_as_far_as_that_and_goes_where_it_is_moved():
+    session = painted(
+        {"do": "layer", "add": "veil"},
+        {"do": "select", "rect": [0, 10, 20, 50, 30]},
+        {"do": "layer", "set": "veil", "mask": True},
+    )
+    assert found(session, "veil") == SourcePart(0, Rect(10, 20, 60, 50))
+    session.do(c.parse({"do": "layer", "set": "veil", "at": [7, -5]}))
+    assert found(session, "veil") == SourcePart(0, Rect(17, 15, 67, 45))
