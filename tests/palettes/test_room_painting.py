@@ -19,6 +19,7 @@ from engine.film.shooting import Film, Shooting
 from engine.numeric.address import Rect
 from engine.painting import commands
 from engine.painting.grown import settled
+from engine.painting.guiding.guides import Guide
 from engine.painting.recording import read, read_from
 from engine.session.replay import replay
 
@@ -34,6 +35,7 @@ def test_its_floor_is_a_tile_laid_in_rows_and_it_hangs_on_its_own_wall():
     assert [c.name for c in laid if c.placing.of is None] == ["The room"]
     assert any(isinstance(c, commands.SetLayer) and isinstance(c.wrap, type(laid[-1].placing.part)) for c in found)
     assert sum(isinstance(c, commands.SetLayer) and c.mask is True for c in found) > 4
+    assert [c.kind for c in found if isinstance(c, Guide)] == ["perspective-1"]
     assert sum(isinstance(c, commands.Fill) for c in found) > 100
     assert RECORDING.stat().st_size <= 120_000
 

@@ -10,6 +10,7 @@ LEVEL, FINER = 2, 4  # the level that most is painted at, and its pixels to one 
 FLOOR = 548  # where the floor meets the wall
 PICTURE, SMALLER = (604, 150), 2  # the corner of what hangs on the wall, and by how many levels it is smaller
 WINDOW = (96, 84, 356, 420)
+EYE, DEEP = (512, 250), 0.9  # where lines away from us end, and how much smaller what lies behind the wall is for that
 Point = tuple[float, ...]  # x, y, perhaps the pressure
 TEXTURES = {
     "Oak": {
@@ -101,6 +102,11 @@ def ring(x: float, y: float, radius: float, steps: int = 72, high: float = 1.0) 
 
 def ink(texture: str, colour: str, amount: float, period: float) -> dict[str, Any]:
     return {"texture": texture, "colour": colour, "amount": amount, "period": round(period, 1)}
+
+
+def behind(*points: Point) -> list[Point]:
+    """The same on the far side of the wall."""
+    return [(round(EYE[0] + DEEP * (x - EYE[0]), 2), round(EYE[1] + DEEP * (y - EYE[1]), 2)) for x, y, *_ in points]
 
 
 def rounded(points: list[Point], times: int = 3) -> list[Point]:

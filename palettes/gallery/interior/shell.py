@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 
-from interior.sheet import FLOOR, HEIGHT, WIDTH, WINDOW, Sheet, box, ink, ring
+from interior.sheet import EYE, FLOOR, HEIGHT, WIDTH, WINDOW, Sheet, behind, box, ink, ring
 
 
 def wall(sheet: Sheet) -> None:
@@ -46,7 +46,7 @@ def view(sheet: Sheet) -> None:
     sheet.layer("View")
     sheet.gradient("sky", (220, y0), (220, y1 - 90), "#5f8fae", "#a9c4c0", "#f3dfae", "#f6c98a")
     sheet.fill(box(x0, y0, x1, y1), 0, colour="#a9c4c0", ink=[{"texture": "sky"}])
-    sheet.fill(ring(268, 236, 21), 1.5, colour="#fff3cf")
+    sheet.fill(ring(304, 232, 21), 1.5, colour="#fff3cf")
     for y, rise, light, dark, period in (
         (286, 20, "#9db0a0", "#7d9488", 200),
         (312, 15, "#7f9a72", "#54724f", 170),
@@ -72,27 +72,52 @@ def view(sheet: Sheet) -> None:
 
 
 def window(sheet: Sheet) -> None:
+    """The window's frame, seen into by the depth of the wall: its sides run to one point."""
     x0, y0, x1, y1 = WINDOW
+    (left, top), (right, bottom) = behind((x0, y0), (x1, y1))
+    middle = (left + right) / 2
+    told = {"kind": "perspective-1", "points": [list(EYE), [WIDTH, EYE[1]]], "off": True}
+    sheet.lines.append({"do": "guide", "name": "Eye", **told})
     sheet.layer("Window")
     bar = {"colour": "#e8dcc0", "ink": [ink("Oak", "#a58d63", 0.45, 300)]}
     flat = {"colour": "#efe4ca", "ink": [ink("Grain", "#a58d63", 0.45, 300)]}
+    dark = {"colour": "#5d4d33"}
+    for y in (y0 + 112, y0 + 224):
+        (_, high), (_, low) = behind((x0, y - 5), (x0, y + 5))
+        sheet.fill(box(left, high, x1, low), 0.4, **flat)
+        sheet.fill(box(left, low, x1, low + 1.5), 0.8, **dark)
+    sheet.fill(box(middle - 6, top, middle + 6, bottom), 0.4, **bar)
+    sheet.fill(box(middle + 6, top, middle + 7.5, bottom), 0.8, **dark)
+    for edge in (box(left, top, left + 9, bottom), box(left, top, x1, top + 8), box(left, bottom - 9, x1, bottom)):
+        sheet.fill(edge, 0.4, **flat)
+    sheet.fill(box(left + 9, top + 8, x1, top + 10), 0.8, **dark)
+    reveals(sheet)
     sheet.fill(box(x0 - 22, y0 - 22, x0 + 4, y1 + 8), 0.4, **bar)
     sheet.fill(box(x1 - 4, y0 - 22, x1 + 22, y1 + 8), 0.4, **bar)
     sheet.fill(box(x0 - 28, y0 - 28, x1 + 28, y0 + 4), 0.4, **flat)
-    sheet.fill(box((x0 + x1) / 2 - 7, y0, (x0 + x1) / 2 + 7, y1), 0.4, **bar)
-    for y in (y0 + 112, y0 + 224):
-        sheet.fill(box(x0, y - 5, x1, y + 5), 0.4, **flat)
     sheet.fill(box(x0 - 40, y1 - 2, x1 + 40, y1 + 20), 0.4, **flat)
-    dark = {"colour": "#5d4d33"}
     for edge in (
         box(x0 - 24, y0 - 22, x0 - 22, y1),
         box(x1 + 22, y0 - 22, x1 + 25, y1),
         box(x0 - 40, y1 + 20, x1 + 42, y1 + 24),
-        box(x0 + 4, y0 + 4, x0 + 6, y1),
-        box((x0 + x1) / 2 + 7, y0, (x0 + x1) / 2 + 9, y1),
+        box(x0 + 4, y0 + 4, x0 + 6, y1 - 2),
     ):
         sheet.fill(edge, 1, **dark)
-    sheet.fill(box(x0, y0 + 4, x1, y0 + 9), 2.5, **dark)
+    sheet.fill(box(x0 + 4, y0 + 4, x1 - 4, y0 + 7), 2, **dark)
+
+
+def reveals(sheet: Sheet) -> None:
+    """The wall's thickness beside, above and below the window; that on the right is hidden."""
+    x0, y0, x1, y1 = WINDOW
+    (left, top), (_, bottom) = behind((x0, y0), (x1, y1))
+    for name, away, here, colours, points in (
+        ("side", (left, 0), (x0, 0), ("#8d7650", "#c7ae82"), [(x0, y0), (left, top), (left, bottom), (x0, y1)]),
+        ("head", (0, top), (0, y0), ("#7a6544", "#a58d66"), [(x0, y0), (x1, y0), (x1, top), (left, top)]),
+        ("sill", (0, bottom), (0, y1), ("#fdf0cf", "#dcc79d"), [(x0, y1), (left, bottom), (x1, bottom), (x1, y1)]),
+    ):
+        sheet.gradient(name, away, here, *colours)
+        inks = [{"texture": name}, ink("Plaster", "#8d7650", 0.25, 120)]
+        sheet.fill(points, 0.6, colour=colours[1], ink=inks)
 
 
 def floor(sheet: Sheet) -> None:
