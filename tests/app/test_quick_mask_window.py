@@ -35,7 +35,7 @@ def test_the_brush_paints_what_is_selected_and_the_eraser_takes_it_away(program)
     app.until(lambda screen: not tinted(screen, ON))
     app.keys("q")
     app.until_gone("mask tint")
-    app.park()
+    app.until(lambda screen: not tinted(screen, OFF))
     ants = (np.abs(app.screen()[60:740, 270:970].astype(int) - empty).max(axis=2) > 24).sum()
     assert 200 < ants < 4000  # a thin rim
     app.keys("ctrl+z")
