@@ -194,6 +194,12 @@ def band(half: np.ndarray, made: Filters, place: Place) -> np.ndarray:
     return image(out, size, True, made.arithmetic)
 
 
+def give(total: np.ndarray, halves: np.ndarray, made: Filters, place: Place) -> None:
+    """Adds to half spectra (n, h, w//2 + 1) of pictures as large as a subband what its own, `halves`, give them."""
+    turn = np.float32(1.0 if made.turned(place) else 0.0)
+    _add_masked(total.view(np.float32), made.mask(place), np.float32(1.0), turn, halves.view(np.float32))
+
+
 def build(images: np.ndarray, made: Filters) -> dict[Place, np.ndarray]:
     """Returns the pyramid of pictures (..., H, W), float32: subbands (..., h, w) by their place."""
     planes = np.ascontiguousarray(images, np.float32).reshape(-1, *made.sizes[0])

@@ -21,14 +21,14 @@ def eigenvectors(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def pseudo_inverse(columns: np.ndarray) -> np.ndarray:
     """Returns the pseudo-inverse (r, c) of a few columns (c, r): float64."""
     given = columns.astype(np.float64)
-    values, vectors = eigenvectors(_product(np.ascontiguousarray(given.T), given))
+    values, vectors = eigenvectors(product(np.ascontiguousarray(given.T), given))
     kept = values > _NOTHING * values.max(initial=0.0)
     lengths = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
-    return _product(_product(vectors * lengths, np.ascontiguousarray(vectors.T)), np.ascontiguousarray(given.T))
+    return product(product(vectors * lengths, np.ascontiguousarray(vectors.T)), np.ascontiguousarray(given.T))
 
 
 @kernel
-def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Returns the product of two matrices, summed in order."""
     out = np.zeros((a.shape[0], b.shape[1]))
     for i in range(a.shape[0]):

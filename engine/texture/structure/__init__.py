@@ -1,0 +1,1 @@
+"""Textures by their joint statistics, and by layouts of an example's patches."""
