@@ -25,7 +25,10 @@ if TYPE_CHECKING:
 
 PYRAMIDS = ("steerable", "laplacian")
 HOWS = ("palette", "bands", "average")
+STRUCTURES = ("none", "statistics", "coarse", "objects", "full")
+OF_NONE = ("--pyramid", "--levels", "--orientations", "--iterations", "--exact", "--start")  # options
 MOST = 8  # threads at most
+_BYTES = 230  # for each pixel and channel of a texture with a structure
 PICTURE = "a PNG, JPEG or TIFF; grey, RGB or RGBA, 8 or 16 bit"
 ABOUT = {
     "match": "Texture like an example, of any size, that tiles without seams",
@@ -55,12 +58,15 @@ class ExampleArgument:
 def run(name: str, words: list[str]) -> int:
     """`inkfall texture match` or `mix`."""
     given = _parser(name).parse_args(words)
+    _check_structure(given, words)
     checked_output(given.out, (".png",))
     paths = [given.example] if name == "match" else [given.palette, given.pattern]
     examples = [read(path, given.out) for path in paths]
     last = examples[-1]
     start = read(given.start, given.out) if name == "match" and given.start else None
     width, height = given.size or (start or last).size[::-1]
+    if given.structure != "none":
+        return _structured(given, examples, (height, width))
     check_memory(height * width, examples, f"{width} x {height}", 44 + 12 * thread_count())
     pattern = _pattern(name, given, [example.planes for example in examples], (height, width))
     beginning = _beginning(pattern, start, given.seed, (height, width))
@@ -72,6 +78,40 @@ def run(name: str, words: list[str]) -> int:
     pixels = pixels_of(matched_colours(pattern, planes), depth)
     write(given.out, pixels)
     tell(given, summary(given, pattern.shape, pixels) | {"size": [width, height]})
+    return DONE
+
+
+def _check_structure(given: argparse.Namespace, words: list[str]) -> None:
+    """Refused, if options do not go with the structure that is asked for."""
+    if given.structure == "none":
+        return
+    for option in OF_NONE:
+        if any(word.split("=")[0] == option for word in words):
+            raise Refused(f"{option}: found it, expected --structure none, of which alone it is, not {given.structure}")
+    if getattr(given, "how", "average") != "average":
+        raise Refused(f"--how: found {given.how}, expected average with --structure {given.structure}")
+
+
+def _structured(given: argparse.Namespace, examples: list[ExampleArgument], size: tuple[int, int]) -> int:
+    """Makes a texture with a structure, writes it and tells of it."""
+    from engine.makers import with_structure
+    from engine.texture.structure.copied import copied_share
+
+    height, width = size
+    check_memory(height * width, [], f"{width} x {height}", _BYTES * max(len(example.planes) for example in examples))
+    planes, colours = [example.planes for example in examples], None
+    with Progress("matching", 100) as bar:
+        for done, found in with_structure.texture_steps(
+            planes, given.structure, getattr(given, "weight", 0.0), size, given.seed
+        ):
+            bar.part(done)
+            colours = colours if found is None else found
+    assert colours is not None
+    pixels = pixels_of(colours, given.depth or max(example.bits for example in examples))
+    write(given.out, pixels)
+    copied = copied_share(with_structure.looked_at(planes[0]), colours)
+    facts = {"structure": given.structure, "copied": round(copied, 3), "size": [width, height]}
+    tell(given, _of_pixels(given, pixels) | facts)
     return DONE
 
 
@@ -96,6 +136,13 @@ def _parser(name: str) -> Parser:
         )
     parser.add_argument("--out", metavar="P.png", required=True, help="where the texture goes")
     parser.add_argument("--size", type=size, metavar="WxH", help="pixels (default: those of the picture)")
+    parser.add_argument(
+        "--structure",
+        choices=STRUCTURES,
+        default="none",
+        help="how much of the example's structure is kept: none (histograms alone), statistics (nothing is copied), "
+        "coarse, objects, full (its layout, to a quarter, to half and to all of the size); default none",
+    )
     parser.add_argument("--pyramid", choices=PYRAMIDS, default="steerable", help="default steerable")
     parser.add_argument("--exact", action="store_true", help="match histograms by rank, not by tables of 256 bins")
     add_common(parser, 5)
@@ -154,7 +201,7 @@ def check_memory(pixels: int, examples: list[ExampleArgument], asked: str, each:
     """Refused, if so many pixels of `each` bytes for each channel, beside the examples, are beyond the machine."""
     from engine.files.limits import memory_cap
 
-    most = max(len(example.planes) for example in examples)
+    most = max((len(example.planes) for example in examples), default=1)
     needed = each * most * pixels + sum(100 * example.planes.size for example in examples)
     if needed > memory_cap():
         raise Refused(
@@ -245,15 +292,13 @@ def write(path: str, pixels: np.ndarray) -> None:
 
 def summary(given: argparse.Namespace, shape: Shape, pixels: np.ndarray) -> dict[str, Any]:
     """Returns what there is to tell of a texture: the pyramid may have fewer levels than were asked for."""
-    return {
-        "written": given.out,
-        "channels": pixels.shape[-1],
-        "bits": 8 * pixels.dtype.itemsize,
-        "levels": shape.levels,
-        "orientations": shape.orientations,
-        "iterations": given.iterations,
-        "seed": given.seed,
-    }
+    of_pyramid = {"levels": shape.levels, "orientations": shape.orientations, "iterations": given.iterations}
+    return _of_pixels(given, pixels) | of_pyramid
+
+
+def _of_pixels(given: argparse.Namespace, pixels: np.ndarray) -> dict[str, object]:
+    bits = 8 * pixels.dtype.itemsize
+    return {"written": given.out, "channels": pixels.shape[-1], "bits": bits, "seed": given.seed}
 
 
 def tell(given: argparse.Namespace, facts: dict[str, Any]) -> None:
@@ -261,9 +306,11 @@ def tell(given: argparse.Namespace, facts: dict[str, Any]) -> None:
     if given.json:
         print(json.dumps(facts))
         return
-    if facts["levels"] < given.levels:
+    if facts.get("levels", given.levels) < given.levels:
         count = facts["levels"]
         print(f"{count} level{'' if count == 1 else 's'}: the pictures have no room for {given.levels}")
     colours = {1: "grey", 3: "RGB", 4: "RGBA"}[facts["channels"]]
     across = " x ".join(map(str, facts["size"]))
     print(f"wrote {given.out}: {across} pixels, {colours}, {facts['bits']} bits")
+    if "copied" in facts:
+        print(f"{facts['copied']:.0%} of its 7 x 7 patches are copied from the example")

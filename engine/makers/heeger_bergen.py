@@ -2,7 +2,7 @@
 
 `match` makes noise, or a start picture, like one example; `mix` makes it like two; a mix of several `stages` is a
 series of textures between the two, of the same noise, one below the other in one picture.  Alpha is matched with the
-colours, as one band more.
+colours, as one band more.  Where a definition names a structure, it is `with_structure` that makes them.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from engine.brush import parts
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.strict_json import Fields
+from engine.makers import with_structure
 from engine.makers.lewis import SAMPLE_CAP, Sample, flattened
 from engine.numeric.colour_axes import axes_of
 from engine.numeric.grid import snapped
@@ -50,6 +51,7 @@ SIDE_CAP = 2048
 STAGES_CAP = 9
 _BANDS_CAP = 300
 _AXES_CAP = 4
+_QUICK = 128  # pixels along the sides of a texture with colours that is soon made
 _SHORT = 16  # digits of an example's sha
 
 
@@ -67,7 +69,7 @@ class Plan:
     """What is asked for.
 
     `examples`: one, or two to be mixed `how`; `size`: height and width; `stages`: how many textures, 1 unless it is a
-    series; `start`: a picture to begin with, float32 (1, 3 or 4, *size).
+    series; `start`: a picture to begin with, float32 (1, 3 or 4, *size); `structure`: one of `with_structure.ALL`.
     """
 
     examples: tuple[Example, ...]
@@ -81,6 +83,7 @@ class Plan:
     stages: int = 1
     bands: tuple[Band, ...] = ()
     axes: tuple[float, ...] = ()
+    structure: str = with_structure.NO_STRUCTURE
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -118,6 +121,7 @@ def read(maker: str, members: Fields, place: Pictures) -> Plan:
         stages = members.integer("stages", 1, lo=1, hi=STAGES_CAP)
         if stages > 1 and how != "average":
             raise FieldError(members.at("how"), f'"{how}"', 'average: only of it there are several "stages"')
+    structure = with_structure.structure_of(members, how if maker == "mix" else "average")
     start = _example(_other(members, "start"), "start", place).planes if "start" in members else None
     size = _size(members, (start if start is not None else given[-1].planes).shape[1:], stages)
     if start is not None:
@@ -128,23 +132,41 @@ def read(maker: str, members: Fields, place: Pictures) -> Plan:
         members.integer("iterations", ITERATIONS, lo=1, hi=1000),
     )
     seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
-    return Plan(tuple(given), *numbers, seed, start, how, mix, stages, _bands(members), _axes(members))
+    return Plan(tuple(given), *numbers, seed, start, how, mix, stages, _bands(members), _axes(members), structure)
 
 
 def steps(plan: Plan) -> Iterator[Made]:
     """Yields the work, piece by piece; the last has the finished texture."""
     done: list[np.ndarray] = []
     for k in range(plan.stages):
-        pattern = pattern_of(plan, k)
         yield Made(k / plan.stages)
-        for step in matching(pattern, _beginning(plan, pattern), plan.iterations):
-            colours = None if step.planes is None else _valid(matched_colours(pattern, step.planes))
-            if colours is not None:
-                shown = [*done, *[colours] * (plan.stages - k)]
-                colours = np.concatenate(shown, axis=1)
-            yield Made((k + step.done) / plan.stages, colours)
+        for part, made in _of_stage(plan, k):
+            colours = None
+            if made is not None:
+                colours = np.concatenate([*done, *[_valid(made)] * (plan.stages - k)], axis=1)
+            yield Made((k + part) / plan.stages, colours)
         assert colours is not None
         done.append(colours[:, k * plan.size[0] : (k + 1) * plan.size[0]])
+
+
+def quick(plan: Plan) -> Plan:
+    """Returns what is soon made and looks a little like it: by histograms alone, and small if it has colours."""
+    most = max(len(example.planes) for example in plan.examples)
+    size = plan.size if most == 1 else (min(plan.size[0], _QUICK), min(plan.size[1], _QUICK))
+    return replace(plan, structure=with_structure.NO_STRUCTURE, stages=1, size=size)
+
+
+def _of_stage(plan: Plan, stage: int) -> Iterator[tuple[float, np.ndarray | None]]:
+    """Yields how far one texture is, 0..1, and now and then its colours, last the finished ones."""
+    if plan.structure == with_structure.NO_STRUCTURE:
+        pattern = pattern_of(plan, stage)
+        for step in matching(pattern, _beginning(plan, pattern), plan.iterations):
+            yield step.done, None if step.planes is None else matched_colours(pattern, step.planes)
+        return
+    weight = plan.mix.weight if plan.stages == 1 else weights(plan.stages)[stage]
+    examples = [example.planes for example in plan.examples]
+    for part, colours in with_structure.texture_steps(examples, plan.structure, weight, plan.size, plan.seed):
+        yield part, None if colours is None else snapped(colours)
 
 
 def pattern_of(plan: Plan, stage: int = 0) -> Pattern:

@@ -64,6 +64,48 @@ def test_examples_of_any_kind_and_size(tmp_path, mode, size):
         assert found.std() == pytest.approx(own.std(), rel=0.05)
 
 
+@pytest.mark.parametrize("mode", [*KINDS, "L16", "grey", "flat"])
+def test_a_structure_of_examples_of_any_kind(tmp_path, mode, capsys):
+    found = made(tmp_path, "match", picture(tmp_path, mode), "--size", "37x29", "--structure", "objects", "--json")
+    told = json.loads(capsys.readouterr().out)
+    assert found.shape[:2] == (29, 37)
+    assert bits(tmp_path / "out.png") == (16 if mode == "L16" else 8)
+    assert (told["structure"], told["channels"], told["size"]) == (
+        "objects",
+        1 if found.ndim == 2 else found.shape[2],
+        [37, 29],
+    )
+    assert 0.0 <= told["copied"] <= 1.0
+
+
+def test_a_mixture_with_a_structure_lies_between_both(tmp_path):
+    one, other = (picture(tmp_path, mode, (40, 36), f"{mode}.png", 3) for mode in ("L", "RGBA"))
+    words = ("mix", one, other, "--how", "average", "--structure", "statistics", "--size", "32x32", "--weight")
+    ends = [made(tmp_path, *words, weight, out=f"{weight}.png") for weight in ("0", "0.5", "1")]
+    alphas = [end[..., 3].mean() for end in ends]
+    assert alphas[0] == 255
+    assert alphas[0] > alphas[1] > alphas[2]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("match", "--levels=4"), "--levels: found it, expected --structure none"),
+        (("match", "--exact"), "--exact: found it, expected --structure none"),
+        (("mix", "--iterations", "5", "--how", "average"), "--iterations: found it, expected --structure none"),
+        (("mix",), "--how: found palette, expected average with --structure full"),
+    ],
+)
+def test_options_of_none_are_refused_with_a_structure(tmp_path, capsys, words, message):
+    path, (name, *options) = picture(tmp_path), words
+    given = [name, str(path), *([str(path)] if name == "mix" else []), *options]
+    assert main(["texture", *given, "--structure", "full", "--out", str(tmp_path / "o.png")]) == 2
+    told = capsys.readouterr().err
+    assert message in told
+    assert told.count("\n") == 1
+    assert not (tmp_path / "o.png").exists()
+
+
 @pytest.mark.parametrize("how", ["palette", "bands", "average"])
 @pytest.mark.parametrize("modes", [("RGB", "L"), ("L16", "RGBA"), ("RGBA", "flat"), ("grey", "RGB")])
 def test_mixtures_of_any_kind(tmp_path, how, modes):

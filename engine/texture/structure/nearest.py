@@ -32,7 +32,7 @@ class Patches:
         found = np.ascontiguousarray(found[:, :: self._step])
         self._middle = mean(found, axis=1, dtype=np.float64).astype(np.float32)[:, None]
         found -= self._middle
-        self._directions = _principal(np.ascontiguousarray(found[:, :: found.shape[1] // _LOOKED_AT + 1]))
+        self._directions = principal(np.ascontiguousarray(found[:, :: found.shape[1] // _LOOKED_AT + 1]))
         own = combinations(self._directions, found)
         self._sizes = _lengths(own)
         self._spread = float(mean(self._sizes))
@@ -66,9 +66,9 @@ def _parts(n: int, usual: int) -> list[slice]:
     return [slice(k * n // count, (k + 1) * n // count) for k in range(count)]
 
 
-def _principal(patches: np.ndarray) -> np.ndarray:
+def principal(patches: np.ndarray, most: int = _DIRECTIONS) -> np.ndarray:
     """Returns the directions (rows, few) along which patches (rows, n) vary most, as rows of length 1: float32."""
-    count = min(_DIRECTIONS, len(patches))
+    count = min(most, len(patches))
     hashed = hash_plane(fold_key(_DOMAIN, 0), 0, 0, len(patches), count) >> np.uint64(40)
     out = hashed.astype(np.float32) * np.float32(2.0**-23) - np.float32(1.0)
     for _ in range(_ROUNDS):

@@ -30,7 +30,7 @@ from engine.texture.structure.half_spectra import (
 
 _SCALES = 4
 _LAGS = 3  # pixels that autocorrelations reach to each side
-_QUANTILES = 1025
+_QUANTILES = 1024
 Kind = TypeVar("Kind", "LowStatistics", "BandStatistics")
 
 
@@ -62,13 +62,14 @@ class BandStatistics:
 class Joint:
     """The joint statistics of a picture (C, h, w) along R axes of colour.
 
-    `pixels` (R, _QUANTILES), `channels` (C, _QUANTILES): sorted values; `high` (R,): the variance of the high-pass;
-    `lows`: of the scales and of what is left below them, the finest first; `scales`; `size`: the picture's.
+    `pixels` (R, quantiles), `alpha` (1, quantiles), or (0, quantiles) where there is none: sorted values, by their
+    means in equal parts; `high` (R,): the variance of the high-pass; `lows`: of the scales and of what is left below
+    them, the finest first; `scales`; `size`: the picture's.
     """
 
     axes: ColourAxes
     pixels: np.ndarray
-    channels: np.ndarray
+    alpha: np.ndarray
     high: np.ndarray
     lows: tuple[LowStatistics, ...]
     scales: tuple[BandStatistics, ...]
@@ -84,7 +85,7 @@ def joint_of(picture: np.ndarray, axes: ColourAxes | None = None) -> Joint:
     made, half = filters_of(size, len(scales)), rfft2(planes)
     lows = [_of_low(masked(resized(half, size[1], at), low_mask(at)), at) for at in made.sizes]
     high = variances(masked(half, made.high), size[1])
-    return Joint(axes, sorted_quantiles(planes), sorted_quantiles(picture), high, tuple(lows), scales, size)
+    return Joint(axes, sorted_quantiles(planes), sorted_quantiles(picture[3:]), high, tuple(lows), scales, size)
 
 
 def bands_measured(planes: np.ndarray, most: int) -> tuple[BandStatistics, ...]:
@@ -147,9 +148,16 @@ def reach_of(size: tuple[int, int], most: int, part: int) -> int:
 
 
 def sorted_quantiles(planes: np.ndarray) -> np.ndarray:
-    """Returns _QUANTILES values of each of some planes (n, ...), in rising order."""
-    found = [histograms.quantiles(histograms.sorted_values(plane), _QUANTILES) for plane in planes]
-    return np.stack(found) if found else np.zeros((0, _QUANTILES), np.float32)
+    """Returns the means of as many equal parts of the sorted values of each of some planes (n, ...).  Means, so that a
+    pixel far from all others does not drag a part of them along."""
+    out = np.zeros((len(planes), _QUANTILES), np.float32)
+    for plane, means in zip(planes, out, strict=True):
+        ordered = histograms.sorted_values(plane)
+        below = np.concatenate([np.zeros(1), np.cumsum(ordered, dtype=np.float64)])
+        edges = np.arange(_QUANTILES + 1) * (ordered.size / _QUANTILES)
+        first = np.minimum(edges.astype(np.int64), ordered.size - 1)
+        means[:] = np.diff(below[first] + (edges - first) * ordered[first]) * (_QUANTILES / ordered.size)
+    return out
 
 
 def variances(half: np.ndarray, width: int) -> np.ndarray:
@@ -177,7 +185,7 @@ def joint_between(one: Joint, other: Joint, weight: float) -> Joint:
         one,
         axes=replace(one.axes, low=low, high=high),
         pixels=_part(one.pixels, other.pixels, weight),
-        channels=_part(one.channels, other.channels, weight),
+        alpha=_part(one.alpha, other.alpha, weight),
         high=_part(one.high, other.high, weight),
         lows=lows,
         scales=tuple(scales),

@@ -64,6 +64,7 @@ def often_swept(planes: np.ndarray, wanted: Joint, scale: int, times: int) -> It
         assert found is not None
         if scale == 0:
             match_quantiles(found, wanted.pixels)
+            found = wanted.axes.planes(_within(wanted.axes.unclipped(found)))
         planes = found if turn == times - 1 else found + _FARTHER * (found - planes)
     yield planes
 
@@ -76,10 +77,15 @@ def from_noise(wanted: Joint, size: Size, seed: int, scale: int, times: int) -> 
 
 
 def colours_of(wanted: Joint, planes: np.ndarray) -> np.ndarray:
-    """Returns the colours (C, h, w) of finished planes, each channel with the example's values."""
+    """Returns the colours (C, h, w) of finished planes, in 0..1.  Alpha has the example's values; were colours given
+    theirs one by one, the fainter axes would lose what they have together."""
     out = wanted.axes.unclipped(planes)
-    match_quantiles(out, wanted.channels)
-    return np.clip(out, np.float32(0.0), np.float32(1.0), out=out)
+    match_quantiles(out[3:], wanted.alpha)
+    return _within(out)
+
+
+def _within(colours: np.ndarray) -> np.ndarray:
+    return np.clip(colours, np.float32(0.0), np.float32(1.0), out=colours)
 
 
 class _Work:

@@ -75,6 +75,11 @@ DEFINITIONS = {
     "bands": texture("mix", path="colour.png", pattern={"path": "grey.png"}, how="bands", split=1, **SMALL),
     "average": texture("mix", path="colour.png", pattern="alpha.png", how="average", weight=0.3, **SMALL),
     "series": texture("mix", path="colour.png", pattern="grey.png", how="average", stages=3, **SMALL),
+    "objects": texture("match", path="colour.png", structure="objects", size=[40, 32]),
+    "statistics with alpha": texture("match", path="alpha.png", structure="statistics", size=[33, 24], seed=2),
+    "series of statistics": texture(
+        "mix", path="colour.png", pattern="grey.png", how="average", stages=2, structure="statistics", size=[24, 24]
+    ),
     "series with alpha": texture("mix", path="colour.png", pattern="alpha.png", how="average", stages=3, **SMALL),
 }
 
@@ -181,6 +186,26 @@ REFUSED = {
     "gain": (texture("match", path="grey.png", bands=[{"level": 0, "gain": -1}]), "bands[0].gain: found -1"),
     "shaping": (texture("match", path="grey.png", bands=[{"level": 0, "shaping": "S"}]), "bands[0].shaping: found"),
     "axes": (texture("match", path="grey.png", axes=[1, "a"]), "axes: found"),
+    "structure": (texture("match", path="grey.png", structure="brick"), "structure: found"),
+    **{
+        f"{name} of a structure": (
+            texture("match", path="grey.png", structure="full", **{name: value}),
+            f"{name}: found it, expected",
+        )
+        for name, value in {
+            "pyramid": "steerable",
+            "levels": 4,
+            "orientations": 4,
+            "iterations": 5,
+            "start": "colour.png",
+            "bands": [],
+            "axes": [],
+        }.items()
+    },
+    "structure of a palette": (
+        texture("mix", path="grey.png", pattern="grey.png", structure="coarse"),
+        'how: found "palette", expected average',
+    ),
     "roughness": (texture("match", path="grey.png", roughness=7, **SMALL), "roughness: found 7"),
 }
 
