@@ -30,7 +30,8 @@ class MatchState:
     """`examples`: the one to match, and one to mix with it, as members of the texture command, None where there is
     none; `bands`: gain and curve of the subbands that were changed; `marking`: the example for which a rectangle of
     the canvas is to be drawn; `marked`: that rectangle while it is drawn, corners in framebuffer pixels;
-    `awaited`: what is to be done with which texture once it is made."""
+    `awaited`: what is to be done with which texture once it is made; `structure`, `between`: how much of the structure
+    is kept, of one example and of the average of two."""
 
     examples: list[Map[str, Any] | None] = field(default_factory=lambda: [None, None])
     size: int = 256
@@ -38,6 +39,8 @@ class MatchState:
     orientations: int = ORIENTATIONS
     iterations: int = ITERATIONS
     seed: int = 0
+    structure: str = "objects"
+    between: str = "statistics"
     how: str = "average"
     weight: float = 0.5
     split: int = 2
@@ -69,18 +72,38 @@ class MatchState:
         """Tells whether what is used is a series."""
         return self.pressed and self.mixing and self.how == "average"
 
+    @property
+    def kept(self) -> str:
+        """Returns how much of the structure is kept of what is set: "none" where two are not averaged."""
+        if not self.mixing:
+            return self.structure
+        return self.between if self.how == "average" else "none"
+
+    def keep(self, structure: str) -> None:
+        """Keeps so much of the structure, of one example or of both."""
+        if self.mixing:
+            self.between = structure
+        else:
+            self.structure = structure
+
     def arguments(self) -> Map[str, Any] | None:
         """Returns the members of the texture command; None without an example."""
         first, second = self.examples
         if first is None:
             return None
         given: dict[str, Any] = {**first, "size": (self.size, self.size)}
-        usual = {"levels": LEVELS, "orientations": ORIENTATIONS, "iterations": ITERATIONS, "seed": 0}
+        usual = {"seed": 0}
+        if self.kept == "none":
+            usual |= {"levels": LEVELS, "orientations": ORIENTATIONS, "iterations": ITERATIONS}
+        else:
+            given |= {"structure": self.kept}
         given |= {name: getattr(self, name) for name, value in usual.items() if getattr(self, name) != value}
         if second is not None:
             given |= {"pattern": second.get("path", second), "how": self.how}
             if self.how != "palette":
                 given |= {"weight": self.weight} if self.how == "average" else {"split": self.split}
+        if self.kept != "none":
+            return Map(given)
         bands = tuple(_band(*item) for item in sorted(self.bands.items(), key=repr) if item[1] != (1.0, None))
         given |= {"bands": bands} if bands else {}
         given |= {"axes": tuple(self.axes)} if any(factor != 1.0 for factor in self.axes) else {}

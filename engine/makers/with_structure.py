@@ -6,16 +6,16 @@ Worked out in one arithmetic, the same on every machine.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 
 import numpy as np
 
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.numeric.arithmetic import EVERYWHERE
-from engine.numeric.colour_axes import axes_of
+from engine.numeric.colour_axes import ColourAxes, axes_of
 from engine.texture.structure.made import STRUCTURES, structured
-from engine.texture.structure.statistics import Joint, joint_between, joint_of
+from engine.texture.structure.statistics import Joint, analysing, joint_between
 from engine.texture.structure.synthesis import colours_of
 
 NO_STRUCTURE = "none"
@@ -54,8 +54,7 @@ def texture_steps(
     """Yields how far the work is, 0..1, and now and then the colours (C, *size), float32 in 0..1; last those of the
     finished texture.  `examples` (1, 3 or 4, h, w): one, or two to be mixed by the weight of the second."""
     pictures = _alike([looked_at(example) for example in examples])
-    wanted = _wanted(pictures, weight)
-    yield 0.02, None
+    wanted = yield from _wanted(pictures, weight)
     for stage in structured(pictures[0], wanted, structure, size, seed):
         colours = None
         if stage.planes is not None and stage.planes.shape[1:] == size:
@@ -63,14 +62,27 @@ def texture_steps(
         yield 0.02 + 0.98 * stage.done, colours
 
 
-def _wanted(pictures: list[np.ndarray], weight: float) -> Joint:
-    """Returns the statistics of one picture, or those between two along axes that serve both."""
+def _wanted(pictures: list[np.ndarray], weight: float) -> Generator[tuple[float, np.ndarray | None], None, Joint]:
+    """Yields between pieces of work; returns the statistics of one picture, or those between two along axes that serve
+    both."""
     if len(pictures) == 1:
-        return joint_of(pictures[0])
+        return (yield from _analysed(pictures[0], None))
     channels = len(pictures[0])
     axes = axes_of(np.concatenate([picture.reshape(channels, -1) for picture in pictures], axis=1), EVERYWHERE)
-    one, other = (joint_of(picture, axes) for picture in pictures)
+    one = yield from _analysed(pictures[0], axes)
+    other = yield from _analysed(pictures[1], axes)
     return joint_between(one, other, weight)
+
+
+def _analysed(picture: np.ndarray, axes: ColourAxes | None) -> Generator[tuple[float, np.ndarray | None], None, Joint]:
+    work = analysing(picture, axes)
+    while True:
+        try:
+            next(work)
+        except StopIteration as stop:
+            found: Joint = stop.value
+            return found
+        yield 0.0, None
 
 
 def looked_at(picture: np.ndarray) -> np.ndarray:

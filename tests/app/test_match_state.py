@@ -28,11 +28,19 @@ def test_nothing_is_asked_for_without_an_example_and_changes_once():
     made.show_area(0, 3, Rect(-5, 7, 25, 47))
     made.ask(posted.append)
     made.ask(posted.append)
-    assert posted[1:] == [MatchSet("match", Map({"rect": (3, -5, 7, 30, 40), "size": (256, 256)}))]
+    assert posted[1:] == [
+        MatchSet("match", Map({"rect": (3, -5, 7, 30, 40), "size": (256, 256), "structure": "objects"}))
+    ]
 
 
 def test_what_is_not_changed_is_not_told():
     made = state("a.png")
+    made.levels = 3
+    made.axes[0] = 0.5
+    assert made.arguments() == Map({"path": "/pictures/a.png", "size": (256, 256), "structure": "objects"})
+    made.keep("none")
+    assert set(made.arguments()) == {"path", "size", "levels", "axes"}
+    made.levels, made.axes[0] = 4, 1.0
     assert made.arguments() == Map({"path": "/pictures/a.png", "size": (256, 256)})
     made.bands = {(0, 1): (2.0, None), (1, 0): (1.0, None), (-1, None): (1.0, ((0.0, 0.0), (1.0, 0.5)))}
     made.axes[1] = 0.5
@@ -48,6 +56,9 @@ def test_a_mixture_is_one_and_a_series_only_for_use():
     assert posted[0].maker == "mix"
     assert posted[0].arguments["pattern"] == "/pictures/b.png"
     assert "stages" not in posted[0].arguments
+    assert posted[0].arguments["structure"] == "statistics"
+    made.keep("full")
+    assert (made.kept, made.structure) == ("full", "objects")
     made.use(posted.append, "ink", "Both")
     assert isinstance(posted[1], MatchUse)
     command = DefineTexture("Both", posted[1].maker, posted[1].arguments)

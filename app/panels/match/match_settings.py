@@ -15,6 +15,13 @@ _HOWS = (
     ("palette", "Palette", "The colours of the first with the pattern of the second"),
     ("bands", "Bands", "The coarse features of the first with the fine ones of the second"),
 )
+_STRUCTURES = (
+    ("none", "None", "Grain alone, of the right colours; its subbands can be changed"),
+    ("statistics", "Statistics", "Nothing is copied: wood, bark, sand, fur, marble"),
+    ("coarse", "Coarse", "Large shapes lie as in the example, the rest is new: walls, bricks"),
+    ("objects", "Objects", "Stones, leaves and bricks stay what they are; hardly anything is copied"),
+    ("full", "Full", "As near to the example as can be; small pieces of it are copied"),
+)
 _AXES = (
     ("Light", "The first axis of the example's colours, along which they differ most"),
     ("Tint", "The second axis: mostly warm against cold"),
@@ -33,9 +40,23 @@ class MatchSettings:
         """Draws it into the present window."""
         if desk.match.mixing:
             self._mixture(desk)
-        self._subbands(desk)
-        self._colours(desk)
-        self._pyramid(desk)
+        self._structure(desk)
+        if desk.match.kept == "none":
+            self._subbands(desk)
+            self._colours(desk)
+            self._pyramid(desk)
+
+    def _structure(self, desk: Desk) -> None:
+        match, scene = desk.match, desk.match.scene
+        if match.mixing and match.how != "average":
+            return
+        imgui.text_disabled("Structure")
+        picked = w.segments("structure", match.kept, _STRUCTURES)
+        if picked:
+            match.keep(picked)
+        if match.kept != "none" and scene is not None and scene.copied >= 0.0:
+            imgui.text_disabled(f"{scene.copied:.0%} copied from the example")
+            w.tooltip("So many of its pieces of 7 x 7 pixels are the example's own; even faces count, too")
 
     def _mixture(self, desk: Desk) -> None:
         match = desk.match

@@ -21,7 +21,7 @@ from engine.checks.field_error import FieldError
 from engine.checks.owned import Owned
 from engine.files.fault import FileError
 from engine.files.strict_json import Fields
-from engine.makers import heeger_bergen
+from engine.makers import heeger_bergen, with_structure
 from engine.makers.heeger_bergen import Plan
 from engine.numeric.colour_axes import ColourAxes
 from engine.painting import commands as c
@@ -33,8 +33,10 @@ from engine.studio.textures import texture_results as tr
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern
 from engine.texture.mixing import SplitColours
+from engine.texture.structure.copied import counted_copies
 
 _KEPT = 8  # pictures read
+_SOON = 0.15  # of the work: a first look
 
 
 @dataclass(eq=False, slots=True)
@@ -49,6 +51,13 @@ class _Work:
     done: float = 0.0
     colours: np.ndarray | None = None
     finished: bool = False
+    counting: Iterator[float | None] | None = None
+    copied: float = -1.0
+
+    @property
+    def structured(self) -> bool:
+        """Tells whether it is made with a structure."""
+        return self.plan is not None and self.plan.structure != with_structure.NO_STRUCTURE
 
 
 class Matcher(Owned):
@@ -111,7 +120,7 @@ class Matcher(Owned):
     def _advance(self, work: _Work) -> None:
         if work.plan is None:
             work.plan = self._read(work)
-            work.steps = heeger_bergen.steps(work.plan)
+            work.steps = heeger_bergen.steps(work.plan) if work.name else _seen_soon(work.plan)
             same = self._preview if work.name else None
             if same is not None and same.finished and _alike(work, same):
                 work.done, work.colours, work.finished = 1.0, same.colours, True
@@ -121,7 +130,7 @@ class Matcher(Owned):
         assert work.steps is not None
         made = next(work.steps, None)
         if made is None:
-            work.finished = True
+            self._end(work)
             return
         work.done = made.done
         if made.colours is not None:
@@ -129,6 +138,22 @@ class Matcher(Owned):
             if not work.name:
                 self._show("match texture", made.colours)
         if made.colours is not None or not work.name:
+            self._tell(work)
+
+    def _end(self, work: _Work) -> None:
+        """Ends a texture that is made; of one that is looked at, what is copied is counted first."""
+        if work.name or not work.structured:
+            work.finished = True
+            return
+        assert work.plan is not None
+        assert work.colours is not None
+        if work.counting is None:
+            example = with_structure.looked_at(work.plan.examples[0].planes)
+            work.counting = counted_copies(example, work.colours)
+            return
+        share = next(work.counting)
+        if share is not None:
+            work.copied, work.finished = share, True
             self._tell(work)
 
     def _read(self, work: _Work) -> Plan:
@@ -168,8 +193,29 @@ class Matcher(Owned):
         making = self._wanted[0].name if self._wanted else ""
         shape = pattern.shape
         self._easel.send(
-            tr.MatchScene(work.done, shape.levels, shape.orientations, _colours(pattern), sizes, making=making)
+            tr.MatchScene(
+                work.done, shape.levels, shape.orientations, _colours(pattern), sizes, making=making, copied=work.copied
+            )
         )
+
+
+def _seen_soon(plan: Plan) -> Iterator[heeger_bergen.Made]:
+    """Yields the steps of a plan; of one with a structure first those to a texture that is soon made, repeated until it
+    is as large."""
+    begun = 0.0
+    if plan.structure != with_structure.NO_STRUCTURE:
+        begun = _SOON
+        for made in heeger_bergen.steps(heeger_bergen.quick(plan)):
+            colours = None if made.colours is None else _repeated(made.colours, plan.size)
+            yield heeger_bergen.Made(begun * made.done, colours)
+    for made in heeger_bergen.steps(plan):
+        yield heeger_bergen.Made(begun + (1.0 - begun) * made.done, made.colours)
+
+
+def _repeated(planes: np.ndarray, size: tuple[int, int]) -> np.ndarray:
+    rows, columns = (np.arange(n) % m for n, m in zip(size, planes.shape[1:], strict=True))
+    out: np.ndarray = planes[:, rows][:, :, columns]
+    return out
 
 
 def _alike(one: _Work, other: _Work) -> bool:

@@ -66,7 +66,8 @@ class MatchScene:
     """What the matching panel shows besides the pictures "match example", "match second", "match texture".
 
     `done`: how far the texture is, 0..1; `levels`, `orientations`: of its pyramid; `colours`: of its axes, sRGB;
-    `fault`: what is wrong with what was asked for; `making`: the texture being made for use.
+    `fault`: what is wrong with what was asked for; `making`: the texture being made for use; `copied`: which part of
+    it is copied from the example, 0..1, -1 while that is not known.
     """
 
     done: float = 0.0
@@ -76,6 +77,7 @@ class MatchScene:
     sizes: tuple[tuple[int, int], ...] = ()  # width and height of the examples
     fault: str = ""
     making: str = ""
+    copied: float = -1.0
 
 
 TextureResult = RegionScene | LabScene | Found | MatchScene

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from engine.numeric.hashing import fold_key, hash_plane
@@ -21,11 +23,19 @@ _DOMAIN = 0x636F7079  # "copy"
 def copied_share(example: np.ndarray, texture: np.ndarray) -> float:
     """Tells which part, 0..1, of the 7 x 7 patches of a texture (C, h, w), by a sample of them, is one of an example's
     (C', h, w), but for a tenth of its deviation; looked at in grey.  0 where either is smaller than a patch."""
+    *_, share = counted_copies(example, texture)
+    assert share is not None
+    return share
+
+
+def counted_copies(example: np.ndarray, texture: np.ndarray) -> Iterator[float | None]:
+    """Yields None after each piece of work, and last what `copied_share` returns."""
     one, other = _grey(example), _grey(texture)
     side = SIDE_OF_COPIES
     spread = float(one.std())
     if min(*one.shape, *other.shape) < side or spread < 1e-6:
-        return 0.0
+        yield 0.0
+        return
     even = np.full((side, side), 1.0 / side**2, np.float32)
     places = gathered(other[..., None], side, False, even)
     hashed = hash_plane(fold_key(_DOMAIN, 0), 0, 0, _LOOKED_AT, 1)[0] % np.uint64(places.shape[1])
@@ -39,7 +49,8 @@ def copied_share(example: np.ndarray, texture: np.ndarray) -> float:
         patches = gathered(one[top : top + _BAND + side - 1, :, None], side, False, even)
         own = combinations(directions, patches)
         _look(combinations(factors, own), own, patches, places, best)
-    return float((best < np.float32((_SAME * spread) ** 2)).mean())
+        yield None
+    yield float((best < np.float32((_SAME * spread) ** 2)).mean())
 
 
 def _grey(picture: np.ndarray) -> np.ndarray:

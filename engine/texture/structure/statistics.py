@@ -7,6 +7,7 @@ plain array, and between those of two pictures lies another: what is mixed is mi
 from __future__ import annotations
 
 import math
+from collections.abc import Generator
 from dataclasses import dataclass, fields, replace
 from typing import TypeVar
 
@@ -32,6 +33,7 @@ _SCALES = 4
 _LAGS = 3  # pixels that autocorrelations reach to each side
 _QUANTILES = 1024
 Kind = TypeVar("Kind", "LowStatistics", "BandStatistics")
+Found = TypeVar("Found")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,10 +80,15 @@ class Joint:
 
 def joint_of(picture: np.ndarray, axes: ColourAxes | None = None) -> Joint:
     """Returns the joint statistics of a picture (C, h, w), float32 in 0..1, along given axes or its own."""
+    return _ended(analysing(picture, axes))
+
+
+def analysing(picture: np.ndarray, axes: ColourAxes | None = None) -> Generator[None, None, Joint]:
+    """Yields after each piece of the work of `joint_of`; returns what that does."""
     axes = axes or axes_of(picture, EVERYWHERE)
     planes = axes.planes(picture)
     size = planes.shape[1], planes.shape[2]
-    scales = bands_measured(planes, _SCALES)
+    scales = yield from _measuring(planes, _SCALES)
     made, half = filters_of(size, len(scales)), rfft2(planes)
     lows = [_of_low(masked(resized(half, size[1], at), low_mask(at)), at) for at in made.sizes]
     high = variances(masked(half, made.high), size[1])
@@ -90,17 +97,34 @@ def joint_of(picture: np.ndarray, axes: ColourAxes | None = None) -> Joint:
 
 def bands_measured(planes: np.ndarray, most: int) -> tuple[BandStatistics, ...]:
     """Returns the statistics of the finest scales of planes (R, h, w): so many, or as many as there is room for."""
+    return _ended(_measuring(planes, most))
+
+
+def _ended(work: Generator[None, None, Found]) -> Found:
+    while True:
+        try:
+            next(work)
+        except StopIteration as stop:
+            found: Found = stop.value
+            return found
+
+
+def _measuring(planes: np.ndarray, most: int) -> Generator[None, None, tuple[BandStatistics, ...]]:
     size = planes.shape[1], planes.shape[2]
     levels = min(most, steerable.most_levels(*size)) if len(planes) else 0
     made, half = filters_of(size, levels), rfft2(planes)
-    parts = [bands_of(half, size[1], made, level) for level in range(levels)]
-    out = []
+    parts, out = [], []
+    for level in range(levels):
+        parts.append(bands_of(half, size[1], made, level))
+        yield
     for level, (real, imaginary) in enumerate(parts):
         parents = None
         if level + 1 < levels:
             coarse, waves = parts[level + 1]
             parents = bands.parents_of(bands.flat(coarse), bands.flat(waves), made.sizes[level])
+            yield
         out.append(_of_bands(bands.flat(real), bands.flat(imaginary), parents))
+        yield
     return tuple(out)
 
 

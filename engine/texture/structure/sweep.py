@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 
 import numpy as np
 
@@ -31,16 +31,19 @@ def swept(planes: np.ndarray, wanted: Joint, scale: int) -> Iterator[np.ndarray 
     size = planes.shape[1], planes.shape[2]
     levels = min(len(wanted.scales) - scale, steerable.most_levels(*size))
     made, half = filters_of(size, levels), rfft2(planes)
-    parts = [bands_of(half, size[1], made, level) for level in range(levels)]
-    yield None
+    parts = []
+    for level in range(levels):
+        parts.append(bands_of(half, size[1], made, level))
+        yield None
     coarsest = made.sizes[-1]
     below = masked(resized(half, size[1], coarsest), low_mask(coarsest))
     below = _low_corrected(below, wanted.lows[scale + levels], coarsest)
     above = None
     for level in reversed(range(levels)):
         at = made.sizes[level]
-        found = _bands_corrected(parts[level], wanted.scales[scale + level], at, above)
+        found = yield from _bands_corrected(parts[level], wanted.scales[scale + level], at, above)
         halves = rfft2(found)
+        yield None
         above = _parents(found, halves, made, level) if level else None
         below = resized(below, made.sizes[level + 1][1], at)
         for k in range(made.orientations):
@@ -88,16 +91,18 @@ def _bands_corrected(
     wanted: BandStatistics,
     size: Size,
     parents: tuple[np.ndarray, np.ndarray] | None,
-) -> np.ndarray:
-    """Returns the real parts of a level's bands (orientations, R, h, w), both parts being given and written over: first
-    magnitudes are corrected, then what the real parts have in common."""
+) -> Generator[None, None, np.ndarray]:
+    """Yields between pieces of work; returns the real parts of a level's bands (orientations, R, h, w), both parts
+    being given and written over: first magnitudes are corrected, then what the real parts have in common."""
     shape = parts[0].shape
     real, imaginary = (part.reshape(shape[0] * shape[1], -1) for part in parts)
     sizes, _ = bands.magnitudes(real, imaginary)
     sizes = coerced(sizes, wanted.together, parents and parents[0], wanted.under)
+    yield
     half = rfft2(sizes.reshape(-1, *size))
     _filtered(half, size, wanted.lags, reach_of(size, 6, 2))
     bands.impose(real, imaginary, irfft2(half, size, True).reshape(real.shape), wanted.means)
+    yield
     return coerced(real, wanted.real, parents and parents[1], wanted.turned).reshape(shape)
 
 

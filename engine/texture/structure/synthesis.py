@@ -15,7 +15,7 @@ from engine.texture.structure.statistics import Joint, low_spread, variances
 from engine.texture.structure.sweep import match_quantiles, swept
 
 SWEEPS = (5, 6, 8, 8)  # of the grids of scales 0, 1, 2, 3
-_PIECES = 5  # of a sweep, about
+_PIECES = 20  # of a sweep, about
 _FARTHER = np.float32(0.8)  # than a sweep goes, the next one begins
 _EVEN = np.float32(3.0**0.5)  # by which noise even in -1..1 has the variance 1
 
@@ -51,7 +51,7 @@ def synthesised(
         for found in often_swept(planes, wanted, scale, sweeps[scale]):
             planes = planes if found is None else found
             yield Progressed(work.after(scale, 1.0 / _PIECES))
-        yield Progressed(work.after(scale, 0.0), planes)
+        yield Progressed(work.after(scale, 0.0) if scale else 1.0, planes)
 
 
 def often_swept(planes: np.ndarray, wanted: Joint, scale: int, times: int) -> Iterator[np.ndarray | None]:

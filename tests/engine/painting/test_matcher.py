@@ -76,6 +76,24 @@ def test_a_preview_grows_step_by_step(desk, example):
     assert not desk.studio.pending
 
 
+def test_a_structure_is_seen_soon_then_as_it_is_used(desk, example):
+    given = Map({"path": str(example / "a.png"), "size": (48, 32), "structure": "objects"})
+    desk.ask(tq.MatchSet("match", given))
+    assert desk.rest() > 60
+    seen = desk.pictures("match texture")
+    assert {picture.shape for picture in seen} == {(32, 48, 4)}
+    assert np.abs(seen[0].astype(int) - seen[-1]).mean() > 5  # first by histograms alone
+    done = [r.done for r in desk.sent if isinstance(r, tr.MatchScene)]
+    assert done == sorted(done)
+    assert desk.scene.done == 1.0
+    assert 0.0 <= desk.scene.copied <= 1.0
+    desk.ask(tq.MatchUse("Stone", "match", given))
+    assert desk.rest() < 4  # nothing is done twice
+    made = desk.studio.easel.session.painting.textures["Stone"]
+    assert made.parameters["structure"] == "objects"
+    assert np.abs(made.source.data[:3].transpose(1, 2, 0) * 255 - seen[-1][..., :3]).max() < 0.51
+
+
 def test_a_translucent_example_is_seen_and_used_so(desk, example):
     pixels = np.random.default_rng(4).integers(0, 256, (12, 14, 4), np.uint8)
     pixels[3:9, 3:9, 3] = 0
