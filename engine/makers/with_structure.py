@@ -14,6 +14,8 @@ from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.colour_axes import ColourAxes, axes_of
+from engine.texture.matching import noise
+from engine.texture.structure.copied import copied_share
 from engine.texture.structure.made import STRUCTURES, structured
 from engine.texture.structure.statistics import Joint, analysing, joint_between
 from engine.texture.structure.synthesis import colours_of
@@ -29,6 +31,7 @@ OF_NONE = (
     "bands",
     "axes",
 )  # members that mean nothing else
+_SMALL = 72  # pixels along the sides of a texture that nobody sees
 _LARGEST = 1024  # pixels along an example's sides that are looked at
 
 
@@ -60,6 +63,16 @@ def texture_steps(
         if stage.planes is not None and stage.planes.shape[1:] == size:
             colours = colours_of(wanted, stage.planes)
         yield 0.02 + 0.98 * stage.done, colours
+
+
+def make_once() -> None:
+    """Makes a small texture of each kind, so that all kernels are compiled and kept."""
+    picture = np.ascontiguousarray(0.5 + 0.4 * noise(3, (_SMALL, _SMALL), 1), np.float32)
+    for structure in ("statistics", "full"):
+        made = picture
+        for _, colours in texture_steps([picture, picture], structure, 0.5, (_SMALL, _SMALL), 0):
+            made = made if colours is None else colours
+        copied_share(picture, made)
 
 
 def _wanted(pictures: list[np.ndarray], weight: float) -> Generator[tuple[float, np.ndarray | None], None, Joint]:

@@ -25,7 +25,7 @@ from engine.brush.stamp import Edit, Stamp
 from engine.canvas.commit import commit
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.store import Pyramid
-from engine.makers import definitions
+from engine.makers import definitions, with_structure
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.painting import commands as c
 from engine.painting.value import Painting, Refusal
@@ -45,10 +45,10 @@ _STEP = 14.0  # px from one point of the pen to the next
 
 
 def run(told: dict[str, Any]) -> None:
-    """Does what a line of JSON tells: {"kind": "commit"} or {"kind": "files"}, or a brush with its textures and the
+    """Does what a line of JSON tells: {"kind": "commit"} or another of _PLAIN, or a brush with its textures and the
     size of its picture."""
-    if told["kind"] in ("commit", "files"):
-        stamped() if told["kind"] == "commit" else filed()
+    if told["kind"] in _PLAIN:
+        _PLAIN[told["kind"]]()
         return
     brush = brush_from_json(told["brush"])
     textures = definitions.read(told["textures"], "textures")
@@ -122,6 +122,9 @@ def filed() -> None:
             studio.close()
         open_painting(ora)
         open_image(png)
+
+
+_PLAIN = {"commit": stamped, "files": filed, "structure": with_structure.make_once}  # jobs without a brush
 
 
 @dataclass(frozen=True, slots=True)

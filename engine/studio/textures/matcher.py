@@ -28,6 +28,7 @@ from engine.painting import commands as c
 from engine.painting.capture import PictureSource
 from engine.studio import faults, results
 from engine.studio.easel import Easel
+from engine.studio.textures import structure_ready
 from engine.studio.textures import texture_requests as tq
 from engine.studio.textures import texture_results as tr
 from engine.texture.image import ImageSource
@@ -120,7 +121,7 @@ class Matcher(Owned):
     def _advance(self, work: _Work) -> None:
         if work.plan is None:
             work.plan = self._read(work)
-            work.steps = heeger_bergen.steps(work.plan) if work.name else _seen_soon(work.plan)
+            work.steps = _when_ready(work.plan) if work.name else _seen_soon(work.plan)
             same = self._preview if work.name else None
             if same is not None and same.finished and _alike(work, same):
                 work.done, work.colours, work.finished = 1.0, same.colours, True
@@ -208,8 +209,15 @@ def _seen_soon(plan: Plan) -> Iterator[heeger_bergen.Made]:
         for made in heeger_bergen.steps(heeger_bergen.quick(plan)):
             colours = None if made.colours is None else _repeated(made.colours, plan.size)
             yield heeger_bergen.Made(begun * made.done, colours)
-    for made in heeger_bergen.steps(plan):
+    for made in _when_ready(plan):
         yield heeger_bergen.Made(begun + (1.0 - begun) * made.done, made.colours)
+
+
+def _when_ready(plan: Plan) -> Iterator[heeger_bergen.Made]:
+    """Yields the steps of a plan; of one with a structure once its kernels are there."""
+    if plan.structure != with_structure.NO_STRUCTURE:
+        yield from structure_ready.waiting(0.0)
+    yield from heeger_bergen.steps(plan)
 
 
 def _repeated(planes: np.ndarray, size: tuple[int, int]) -> np.ndarray:
