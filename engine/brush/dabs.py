@@ -40,7 +40,7 @@ class Stroker:
 
     def __init__(self, brush: Brush, key: int = 0) -> None:
         self._response = response(brush)
-        self._felt = felt.feeling(brush) if felt.feels(brush) else None
+        self._felt = felt.with_hairs(felt.feeling(brush), brush, key) if felt.feels(brush) else None
         self._width = DAB if self._felt is None or not self._felt.plan[felt.HAS_TURNS] else TURNED_COLUMNS
         self._key = np.uint64(key)
         self._state = np.zeros(6 if self._felt is None else felt.STATE)

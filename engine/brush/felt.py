@@ -17,7 +17,7 @@ import numpy as np
 from immutables import Map
 
 from engine.brush import inputs
-from engine.brush.dynamics import DYNAMIC, knots_of
+from engine.brush.dynamics import DYNAMIC, knots_of, most_of
 from engine.brush.inputs import (
     DIRECTION,
     NUMBERS,
@@ -32,8 +32,8 @@ from engine.brush.inputs import (
 from engine.brush.settings import Brush
 from engine.brush.targets import ANGLE, FOLLOWERS
 from engine.brush.tip_shape import FOLLOWS, ROUND
-from engine.numeric.elementary import atan, atan2, tan
-from engine.numeric.hashing import MASK64, mix64, mixed
+from engine.numeric.elementary import atan, atan2, cos, mapped, sin, tan
+from engine.numeric.hashing import MASK64, fold_key, mix64, mixed, uniform
 from engine.numeric.kernel import Array, inner
 
 # What a walk knows of where it is; the last point's members stand as in a table of points.
@@ -47,6 +47,10 @@ _LAG = 0.04  # s by which the speed lags behind
 _SOFT = 0.25, 1.0, 16.0  # of a radius, and px: how gradually the direction turns
 _DEGREES = 57.29577951308232
 _BRUSHES = 256
+_HAIRS = 0x6861697273  # "hairs"
+_GOLDEN, _TURN = 0.6180339887498949, 6.283185307179586  # parts of a turn from hair to hair
+_LEAST, _LARGEST = 0.7, 1.3  # hairs to the middle one
+_STOUT = 0.85  # how large hairs are: those of the whole tip together cover it about once
 
 
 class Feeling(NamedTuple):
@@ -55,7 +59,8 @@ class Feeling(NamedTuple):
     `values`, `lo`, `hi`: float64, a target each; `turns`: bool, likewise; `curves`: int64 (k, 4), target, input, first
     knot and the one after the last of `knots`, float64 (m, 2); `used`: bool, of each input; `plan`: int64, what the
     tip follows, whether the direction is looked at, whether dabs are turned, how many lie at each place; `soft`: px
-    over which the direction turns; `hairs`: float64 (n, 4), of each its place in the tip, size and load.
+    over which the direction turns; `hairs`: float64 (n, 4), of each its place in the tip, size and load; `fine`: how
+    large they are to the tip.
     """
 
     values: np.ndarray
@@ -68,6 +73,7 @@ class Feeling(NamedTuple):
     plan: np.ndarray
     soft: float
     hairs: np.ndarray
+    fine: float
 
 
 def feels(brush: Brush) -> bool:
@@ -93,6 +99,12 @@ def is_turned(brush: Brush) -> bool:
         return False
     aslant = own.angle != 0.0 or own.follow != ROUND.follow or "angle" in felt
     return own.ratio != 1.0 or "ratio" in felt or (brush.tip is not None and aslant)
+
+
+def radii_around(brush: Brush) -> float:
+    """Returns how many of its radii a brush's dabs reach from their places at most."""
+    scatter = brush.shape.scatter * most_of(brush.dynamics.get("scatter"))
+    return 1.0 + min(scatter, FOLLOWERS["scatter"].hi) + (_STOUT * _LARGEST if brush.shape.bristles else 0.0)
 
 
 @lru_cache(_BRUSHES)
@@ -129,7 +141,22 @@ def feeling(brush: Brush) -> Feeling:
         np.array(plan, np.int64),
         min(max(part * brush.radius, least), most),
         np.empty((0, 4)),
+        1.0,
     )
+
+
+def with_hairs(felt: Feeling, brush: Brush, key: int) -> Feeling:
+    """Returns what the walk needs to know of one stroke of a brush, whose hairs lie as its `key` says."""
+    count = brush.shape.bristles
+    if not count:
+        return felt
+    turn, far, size, load = uniform(fold_key(_HAIRS, key), 4 * count).reshape(4, count)
+    number = np.arange(count)
+    away = np.sqrt((number + 0.25 + 0.5 * far) / count)
+    angle = (number * _GOLDEN + (turn - 0.5) * 0.5) * _TURN
+    places = away * mapped(cos, angle), away * mapped(sin, angle)
+    fine = min(1.0, _STOUT * float(np.sqrt(brush.shape.ratio / count)))
+    return felt._replace(hairs=np.stack([*places, _LEAST + (_LARGEST - _LEAST) * size, load], axis=1), fine=fine)
 
 
 def plain_chance(key: int, number: int, slot: int) -> float:

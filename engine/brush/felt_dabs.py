@@ -24,6 +24,9 @@ SEGMENT_CAP = 1 << 18  # dabs between two points: farther points get wider spaci
 STROKE_CAP = 1 << 22  # dabs of a stroke: after that, at most one place for each point
 ROUND_COLUMNS, TURNED_COLUMNS = 6, 9  # columns: x, y, radius, opacity, flow, hardness; cosine, sine of its angle, ratio
 _ASIDE, _AWAY = 32, 33  # slots of random numbers
+_STREAKS, _MOST_HAIRS = 1 << 41, 256  # numbers of what streaks hang on
+_STREAK = 5.0  # radii along a streak
+_OWN, _WET, _SHARP = 0.6, 1.0, 2.5  # of a hair: how much its load counts beside streaks; when it is dry
 _TURN = 6.283185307179586
 _DEGREE = 0.017453292519943295
 
@@ -35,6 +38,36 @@ def _write(x: float, y: float, now: Array, dab: Array) -> None:
     if dab.shape[0] >= TURNED_COLUMNS:
         angle = (now[ANGLE] - 360.0 * math.floor(now[ANGLE] / 360.0)) * _DEGREE
         dab[6], dab[7], dab[8] = cos(angle), sin(angle), now[RATIO]
+
+
+@inner
+def _write_hairs(
+    x: float, y: float, felt: Feeling, key: np.uint64, gone: float, now: Array, dabs: Array, made: int
+) -> int:
+    """Writes a dab for each hair; returns how many there are now.
+
+    The paint runs along the stroke: a hair lays as much as the brush can while it is wet, which it is the longer the
+    more it was loaded with, and less and more by turns; as many are wet as the opacity is of the brush's own.
+    """
+    angle = (now[ANGLE] - 360.0 * math.floor(now[ANGLE] / 360.0)) * _DEGREE
+    across, down, most = now[RADIUS] * cos(angle), now[RADIUS] * sin(angle), felt.values[OPACITY]
+    wet = _WET * now[OPACITY] / most if most > 0.0 else 0.0
+    along = gone / (_STREAK * max(felt.values[RADIUS], 1.0))
+    streak = math.floor(along)
+    part = along - streak
+    part = part * part * (3.0 - 2.0 * part)
+    for k in range(felt.hairs.shape[0]):
+        if made < dabs.shape[0]:
+            dab, hair = dabs[made], felt.hairs[k]
+            low = chance(key, _STREAKS + int(streak) * _MOST_HAIRS + k, 0)
+            high = chance(key, _STREAKS + (int(streak) + 1) * _MOST_HAIRS + k, 0)
+            dry = _OWN * (1.0 - hair[3]) + (1.0 - _OWN) * (low + (high - low) * part)
+            dab[0] = x + across * hair[0] - down * hair[1] * now[RATIO]
+            dab[1] = y + down * hair[0] + across * hair[1] * now[RATIO]
+            dab[2], dab[3] = now[RADIUS] * felt.fine * hair[2], most * min(1.0, max(0.0, (wet - dry) * _SHARP))
+            dab[4], dab[5] = now[FLOW], now[HARDNESS]
+        made += 1
+    return made
 
 
 @inner
@@ -59,12 +92,15 @@ def _place(
         sensed[inputs.DAB_NUMBER] = float(first + k)
         respond_felt(felt, sensed, key, first + k, now)
         if k == 0:
-            step = max(now[SPACING], SPACING_FLOOR) * now[RADIUS]
+            step = max(now[SPACING], SPACING_FLOOR) * now[RADIUS] * felt.fine
         dx, dy = 0.0, 0.0
         if now[SCATTER] > 0.0:
             aside = chance(key, first + k, _ASIDE) * _TURN
             away = math.sqrt(chance(key, first + k, _AWAY)) * now[SCATTER] * now[RADIUS]
             dx, dy = away * cos(aside), away * sin(aside)
+        if felt.hairs.shape[0] > 0:
+            made = _write_hairs(x + dx, y + dy, felt, key, sensed[inputs.DISTANCE], now, dabs, made)
+            continue
         if made < dabs.shape[0]:
             _write(x + dx, y + dy, now, dabs[made])
         made += 1

@@ -30,7 +30,7 @@ FOLLOWERS: dict[str, Target] = {
         Target("hardness", "Hardness", 0.0, 1.0),
         Target("spacing", "Spacing", 0.0, 16.0),
         Target("angle", "Angle", -1e6, 1e6, turns=True),
-        Target("ratio", "Ratio", 0.01, 1.0),
+        Target("ratio", "Roundness", 0.01, 1.0),
         Target("scatter", "Scatter", 0.0, 16.0),
     )
 }

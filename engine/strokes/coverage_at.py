@@ -19,7 +19,7 @@ from engine.brush.copies import Copies, Torus, copied, copied_places, each
 from engine.brush.dabs import Stroker, stroke_key
 from engine.brush.dynamics import most_of
 from engine.brush.extent import WIDEST
-from engine.brush.felt import feels
+from engine.brush.felt import feels, radii_around
 from engine.brush.footprint import Footprint
 from engine.brush.ink import Texture
 from engine.brush.mask import StrokeMask
@@ -67,8 +67,7 @@ def _places(stroke: Stroke) -> np.ndarray:
 def _reach(stroke: Stroke) -> float:
     """Returns how far from its points a stroke's dabs may lie, pixels."""
     brush = stroke.brush
-    scatter = brush.shape.scatter * most_of(brush.dynamics.get("scatter"))
-    widest = brush.radius * most_of(brush.dynamics.get("radius")) * (1.0 + scatter)
+    widest = brush.radius * most_of(brush.dynamics.get("radius")) * radii_around(brush)
     widest *= max([1.0, *(copy.scale for copy in stroke.copies)])
     return widest + 2.0 + (WIDEST if brush.extent else 0.0)
 

@@ -92,7 +92,7 @@ class DynamicsSection:
 
     def _span(self, desk: Desk, target: Target, row: Input, curve: OneCurve) -> None:
         bounds, hint = (_SHORTEST, _LONGEST), "Where the curve ends: from there on it stays as it is"
-        label, form = f"up to##{target.name} {row.name}", f"%.0f {row.unit}"
+        label, form = f"Up to##{target.name} {row.name}", f"%.0f {row.unit}"
         changed, value = w.slider(label, span_of(row.name, curve), bounds, hint, form=form, curved=True)
         if changed:
             _change(desk, target.name, row.name, spread(row.name, unit_knots(row.name, curve), max(1.0, round(value))))
@@ -120,7 +120,7 @@ def _applies(brush: Brush, target: str) -> bool:
     if target == "scatter":
         return shape.scatter > 0.0 or target in brush.dynamics
     if target in ("angle", "ratio"):
-        return shape.ratio < 1.0 or brush.tip is not None or target in brush.dynamics
+        return shape.ratio < 1.0 or shape.bristles > 0 or brush.tip is not None or target in brush.dynamics
     return True
 
 

@@ -9,7 +9,7 @@ from imgui_bundle import imgui
 
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
-from engine.brush.tip_shape import MOST_COUNT, TipShape
+from engine.brush.tip_shape import MOST_BRISTLES, MOST_COUNT, TipShape
 
 _FOLLOWS = (("none", "Fixed"), ("direction", "The stroke"), ("pen", "The pen"))
 _HINTS = (
@@ -23,8 +23,8 @@ _MOST_SCATTER = 4.0  # radii that the slider offers
 def draw(desk: Desk) -> None:
     """Draws it into the present window."""
     shape = desk.hand.brush.shape
-    part = _slid(shape, "ratio", "Slenderness", 100 - shape.ratio * 100, (0.0, 98.0), "%.0f%%", _SLENDER)
-    part = replace(part, ratio=round(1.0 - part.ratio / 100, 4)) if part is not shape else shape
+    part = _slid(shape, "ratio", "Roundness", shape.ratio * 100, (2.0, 100.0), "%.0f%%", _ROUNDNESS)
+    part = replace(part, ratio=round(part.ratio / 100, 4)) if part is not shape else shape
     turned = _slid(part, "angle", "Angle", part.angle, (-180.0, 180.0), "%.0f°", "How the tip is turned, clockwise")
     part = replace(turned, angle=float(round(turned.angle)))
     width = imgui.get_content_region_avail().x
@@ -34,11 +34,14 @@ def draw(desk: Desk) -> None:
     part = replace(strewn, scatter=round(strewn.scatter / 100, 3)) if strewn is not part else part
     many = _slid(part, "count", "Count", part.count, (1.0, float(MOST_COUNT)), "%.0f", "How many dabs at each place")
     part = replace(many, count=round(many.count))
+    haired = _slid(part, "bristles", "Bristles", part.bristles, (0.0, float(MOST_BRISTLES)), "%.0f", _BRISTLES)
+    part = replace(haired, bristles=round(haired.bristles))
     if part != shape:
         desk.hand.change(shape=part)
 
 
-_SLENDER = "How much narrower than long the tip is: 0 is round, a nib has 80"
+_ROUNDNESS = "How broad the tip is for its length: a broad nib has 15%"
+_BRISTLES = "Hairs of the tip, each with its own load of paint; 0 is a whole tip. Less opacity leaves fewer of them wet"
 _SCATTER = "How far dabs lie aside, in per cent of the radius"
 
 

@@ -30,6 +30,7 @@ BRUSHES = st.builds(
             "follow": st.sampled_from(["none", "direction", "pen"]),
             "scatter": st.floats(0, 3),
             "count": st.integers(1, 3),
+            "bristles": st.integers(0, 5),
         },
     ),
     st.floats(0.1, 2),
@@ -195,6 +196,29 @@ def test_dabs_are_scattered_within_their_reach_and_as_many_as_told():
     far = np.hypot(away[..., 0], away[..., 1])
     assert 15 < far.max() <= 20
     assert abs(away.mean()) < 3
+
+
+def test_hairs_lie_in_the_tip_and_run_along_the_stroke():
+    brush = from_json({"radius": 20, "dynamics": {}, "shape": {"ratio": 0.25, "angle": 90, "bristles": 50}})
+    dabs = Stroker(brush, 4).add(line([0, 0], [60, 0])).reshape(-1, 50, 6)
+    places = dabs[:, :, :2] - dabs[:, :, :2].mean(axis=1, keepdims=True)
+    np.testing.assert_allclose(places, np.broadcast_to(places[:1], places.shape), atol=1e-9)  # each keeps its line
+    assert (((dabs[0, :, 0] / 5) ** 2 + (dabs[0, :, 1] / 20) ** 2) <= 1 + 1e-9).all()
+    assert np.ptp(dabs[0, :, 1]) > 34
+    assert dabs[..., 3].min() < 0.9
+    assert dabs[..., 3].max() == 1.0
+    assert np.abs(np.diff(dabs[..., 3], axis=0)).max() < 0.1  # not dab by dab
+
+
+def test_with_less_opacity_fewer_hairs_are_wet_and_each_lays_as_much():
+    def wet(opacity):
+        told = {"radius": 20, "opacity": 0.8, "dynamics": {"opacity": [[0, opacity]]}, "shape": {"bristles": 60}}
+        return Stroker(from_json(told), 4).add(line([0, 0], [60, 0]))[:, 3]
+
+    dry, half, full = map(wet, (0.0, 0.5, 1.0))
+    assert not dry.any()
+    assert (half > 0).sum() < (full > 0).sum()
+    assert half.max() == pytest.approx(full.max()) == pytest.approx(0.8)
 
 
 HOSTILE = {

@@ -33,6 +33,7 @@ LOOKS = {
         "dynamics": {"angle": {"random_dab": [[0, 0], [1, 1]]}},
     },
     "sway": {"shape": {"ratio": 0.3, "follow": "direction"}, "ink": [{"texture": "rock", "amount": 0.9}]},
+    "bristles": {"shape": {"bristles": 12, "ratio": 0.4, "follow": "direction", "scatter": 0.5}},
     "changed": {"mode": "raster", "op": {"formula": "pressure - pic"}, "shape": {"scatter": 1, "follow": "direction"}},
 }
 PENS = st.lists(
