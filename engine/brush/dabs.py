@@ -22,6 +22,7 @@ from engine.brush.settings import Brush
 from engine.brush.targets import FLOW, HARDNESS, OPACITY, RADIUS, SPACING
 from engine.numeric.hashing import fold_key
 from engine.numeric.kernel import Array, kernel
+from engine.numeric.oklch import lab_of, shift_colours
 from engine.numeric.stand_in import or_interpreted
 
 DAB = ROUND_COLUMNS
@@ -41,7 +42,10 @@ class Stroker:
     def __init__(self, brush: Brush, key: int = 0) -> None:
         self._response = response(brush)
         self._felt = felt.with_hairs(felt.feeling(brush), brush, key) if felt.feels(brush) else None
-        self._width = DAB if self._felt is None or not self._felt.plan[felt.HAS_TURNS] else TURNED_COLUMNS
+        plan = np.zeros(felt.HAS_TINTS + 1, np.int64) if self._felt is None else self._felt.plan
+        self._tints = int(plan[felt.HAS_TINTS])
+        self._width = (TURNED_COLUMNS if plan[felt.HAS_TURNS] else DAB) + self._tints
+        self._lab = lab_of(brush.rgb) if self._tints else None
         self._key = np.uint64(key)
         self._state = np.zeros(6 if self._felt is None else felt.STATE)
         self._columns = 0  # of the points
@@ -51,7 +55,8 @@ class Stroker:
         """Returns the dabs that `points`, float64 (n, 2..7): x, y, pressure, tilt_x, tilt_y, t, rotation, add.
 
         Returns float64 (m, 6): x, y, radius in px; opacity, flow, hardness in 0..1; (m, 9) where dabs are turned: also
-        the cosine and sine of the angle, and the ratio.  Points that are not finite are dropped and counted; BrushError
+        the cosine and sine of the angle, and the ratio; and then, where they have tints, red, green and blue, encoded,
+        and a factor for each component of the ink.  Points that are not finite are dropped and counted; BrushError
         beyond 2^31 px.
         """
         points, dropped = cleaned(points)
@@ -93,6 +98,11 @@ class Stroker:
             dabs = np.empty((count, self._width))
             self._state = before
             self._count(points, dabs, rest)
+        if self._lab is not None:
+            first = self._width - self._tints
+            colours = dabs[:count, first : first + 3].copy()
+            shift_colours(colours, self._lab)
+            dabs[:count, first : first + 3] = colours
         return dabs[:count]
 
     def _count(self, points: np.ndarray, dabs: np.ndarray, rest: bool) -> int:

@@ -9,7 +9,7 @@ in steps: each is the coverage of the points that lie where the stroke's is abov
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -50,7 +50,7 @@ class Extent:
         keys = {
             near for key in coverage.tiles for near in key.rect.grown(self.reach).intersect(rect).tiles(coverage.level)
         }
-        return Coverage(coverage.level, _Extended(self, coverage.tiles, frozenset(keys)), rect)
+        return replace(coverage, tiles=_Extended(self, coverage.tiles, frozenset(keys)), rect=rect)
 
     def tile(self, tiles: Tiles, key: TileKey) -> np.ndarray:
         """Returns one tile's coverage: float32 (128, 128)."""

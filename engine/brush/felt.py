@@ -30,7 +30,7 @@ from engine.brush.inputs import (
     TILT_DIRECTION,
 )
 from engine.brush.settings import Brush
-from engine.brush.targets import ANGLE, FOLLOWERS
+from engine.brush.targets import ANGLE, COLOUR_TARGETS, FOLLOWERS
 from engine.brush.tip_shape import FOLLOWS, ROUND
 from engine.numeric.elementary import atan, atan2, cos, mapped, sin, tan
 from engine.numeric.hashing import MASK64, fold_key, mix64, mixed, uniform
@@ -40,7 +40,7 @@ from engine.numeric.kernel import Array, inner
 AT_X, AT_Y, AT_PRESSURE, AT_TILT_X, AT_TILT_Y, AT_TIME, AT_TURN = range(7)
 IS_BEGUN, IS_LEFT, IS_LAID, IS_WAY_X, IS_WAY_Y, IS_PACE, IS_TIMED, IS_GONE = range(7, 15)
 STATE = 15
-HAS_FOLLOW, HAS_WAY, HAS_TURNS, HAS_COUNT = range(4)  # of a plan
+HAS_FOLLOW, HAS_WAY, HAS_TURNS, HAS_COUNT, HAS_TINTS = range(5)  # of a plan
 _ALWAYS = 1 << 40  # in place of a dab's number, of what stays all through a stroke
 _SLOTS = 64  # random numbers of a dab
 _LAG = 0.04  # s by which the speed lags behind
@@ -58,7 +58,8 @@ class Feeling(NamedTuple):
 
     `values`, `lo`, `hi`: float64, a target each; `turns`: bool, likewise; `curves`: int64 (k, 4), target, input, first
     knot and the one after the last of `knots`, float64 (m, 2); `used`: bool, of each input; `plan`: int64, what the
-    tip follows, whether the direction is looked at, whether dabs are turned, how many lie at each place; `soft`: px
+    tip follows, whether the direction is looked at, whether dabs are turned, how many lie at each place, how many
+    tints they have; `soft`: px
     over which the direction turns; `hairs`: float64 (n, 4), of each its place in the tip, size and load; `fine`: how
     large they are to the tip.
     """
@@ -101,6 +102,13 @@ def is_turned(brush: Brush) -> bool:
     return own.ratio != 1.0 or "ratio" in felt or (brush.tip is not None and aslant)
 
 
+def tints_of(brush: Brush) -> int:
+    """Returns how many tints each dab has: three of its colour, and one of each component of the ink; 0 where none of
+    these follow anything."""
+    names = {*COLOUR_TARGETS, *(f"ink_{n + 1}" for n in range(len(brush.ink)))}
+    return 3 + len(brush.ink) if brush.row.lays_ink and names & set(brush.dynamics) else 0
+
+
 def radii_around(brush: Brush) -> float:
     """Returns how many of its radii a brush's dabs reach from their places at most."""
     scatter = brush.shape.scatter * most_of(brush.dynamics.get("scatter"))
@@ -127,8 +135,11 @@ def feeling(brush: Brush) -> Feeling:
     used[ROTATION] |= follow == 2
     used[TILT_DIRECTION] |= follow == 2
     turned = is_turned(brush)
-    plan = follow if turned or brush.shape.bristles else 0, used[DIRECTION], turned, brush.shape.count
-    own = [getattr(brush if name in DYNAMIC else brush.shape, name) for name in FOLLOWERS]
+    plan = follow if turned or brush.shape.bristles else 0, used[DIRECTION], turned, brush.shape.count, tints_of(brush)
+    own = [
+        getattr(brush if name in DYNAMIC else brush.shape, name) if row.own is None else row.own
+        for name, row in FOLLOWERS.items()
+    ]
     part, least, most = _SOFT
     return Feeling(
         np.array(own, np.float64),

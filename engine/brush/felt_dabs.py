@@ -13,7 +13,7 @@ import numpy as np
 from engine.brush import felt as f
 from engine.brush import inputs
 from engine.brush.felt import Feeling, chance, pace_at, plain_chance, respond_felt, sense, way_at
-from engine.brush.targets import ANGLE, FLOW, HARDNESS, OPACITY, RADIUS, RATIO, SCATTER, SPACING
+from engine.brush.targets import ANGLE, FLOW, HARDNESS, HUE, OPACITY, RADIUS, RATIO, SCATTER, SPACING
 from engine.numeric.elementary import cos, sin
 from engine.numeric.kernel import Array, inner, kernel
 from engine.numeric.stand_in import or_interpreted
@@ -32,10 +32,19 @@ _DEGREE = 0.017453292519943295
 
 
 @inner
-def _write(x: float, y: float, now: Array, dab: Array) -> None:
+def _tint(felt: Feeling, now: Array, dab: Array) -> None:
+    """Writes the tints of a dab, its last columns: turn of the hue in degrees, factors of lightness, chroma, inks."""
+    first = dab.shape[0] - felt.plan[f.HAS_TINTS]
+    for k in range(felt.plan[f.HAS_TINTS]):
+        dab[first + k] = now[HUE + k]
+
+
+@inner
+def _write(x: float, y: float, felt: Feeling, now: Array, dab: Array) -> None:
     dab[0], dab[1] = x, y
     dab[2], dab[3], dab[4], dab[5] = now[RADIUS], now[OPACITY], now[FLOW], now[HARDNESS]
-    if dab.shape[0] >= TURNED_COLUMNS:
+    _tint(felt, now, dab)
+    if felt.plan[f.HAS_TURNS]:
         angle = (now[ANGLE] - 360.0 * math.floor(now[ANGLE] / 360.0)) * _DEGREE
         dab[6], dab[7], dab[8] = cos(angle), sin(angle), now[RATIO]
 
@@ -66,6 +75,7 @@ def _write_hairs(
             dab[1] = y + down * hair[0] + across * hair[1] * now[RATIO]
             dab[2], dab[3] = now[RADIUS] * felt.fine * hair[2], most * min(1.0, max(0.0, (wet - dry) * _SHARP))
             dab[4], dab[5] = now[FLOW], now[HARDNESS]
+            _tint(felt, now, dab)
         made += 1
     return made
 
@@ -102,7 +112,7 @@ def _place(
             made = _write_hairs(x + dx, y + dy, felt, key, sensed[inputs.DISTANCE], now, dabs, made)
             continue
         if made < dabs.shape[0]:
-            _write(x + dx, y + dy, now, dabs[made])
+            _write(x + dx, y + dy, felt, now, dabs[made])
         made += 1
     return made, step
 

@@ -12,6 +12,7 @@ import numpy as np
 from engine.brush import discs as kernels
 from engine.brush.checks import BrushError
 from engine.brush.print_form import Print
+from engine.brush.tinting import Tinted
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import SNAP
 
@@ -40,13 +41,14 @@ class Coverage:
     """A stroke's coverage at one moment; shares its tiles with the mask it was taken from, and never changes.
 
     `tiles`: by key, M as float32 (128, 128), or one float where M is the same all over; between grid values, in 0..1.
-    `rect`: pixels of `level` outside which M is 0.
+    `rect`: pixels of `level` outside which M is 0.  `tints`: of strokes whose dabs have some, their means (`tinting`).
     """
 
     level: int
     tiles: Mapping[TileKey, np.ndarray | float]
     rect: Rect
     stain: Stain | None = None
+    tints: Mapping[TileKey, np.ndarray] | None = None
 
     @cached_property
     def keys(self) -> tuple[TileKey, ...]:
@@ -108,7 +110,14 @@ class StrokeMask:
         """Returns what is covered so far, as a value that later dabs do not change."""
         self._lent = set(self._tiles)
         self._places.clear()
-        return Coverage(self.level, dict(self._tiles), self.rect)
+        return Coverage(self.level, dict(self._tiles), self.rect, tints=self._tints())
+
+    def _tints(self) -> dict[TileKey, np.ndarray] | None:
+        if not isinstance(self._tip, Tinted):
+            return None
+        left, top = self._corner
+        told = self._tip.told().items()
+        return {TileKey(self.level, left + x // TILE, top + y // TILE): tile for (x, y), tile in told}
 
     def paint(self, dabs: np.ndarray) -> set[TileKey]:
         """Lays dabs, float64 (n, 6 or more) of `Stroker.add`, in order; returns the tiles that may have changed.

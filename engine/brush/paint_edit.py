@@ -12,9 +12,11 @@ import numpy as np
 
 from engine.brush import coat
 from engine.brush.covered import Covered, Looks
+from engine.brush.felt import tints_of
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.settings import Brush
 from engine.brush.stamp import Stamp
+from engine.brush.tinted_ink import TintedInk, tinted_ink
 from engine.numeric.address import TILE, TileKey
 from engine.texture.image import ImageSource
 from engine.texture.planes import COLOURS, Planes
@@ -32,7 +34,7 @@ class Painting(Covered):
     @staticmethod
     def ink_of(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink | None:
         """Returns the brush's ink, as `Covered.ink_of`."""
-        return resolve(brush, textures, level, seed)
+        return (tinted_ink if tints_of(brush) else resolve)(brush, textures, level, seed)
 
     @staticmethod
     def looks(brush: Brush, ink: Ink | None) -> Looks:
@@ -43,7 +45,8 @@ class Painting(Covered):
         """Returns A and B of a tile, as `Edit.stamp`; None where nothing changes."""
         assert self.ink is not None
         covered = self.coverage.tiles.get(key)
-        alike = covered if isinstance(covered, float) and not self.ink.loaded and not self.locked else None
+        plain = not self.ink.loaded and not self.locked and self.coverage.tints is None
+        alike = covered if isinstance(covered, float) and plain else None
         if alike in self._flat:
             return self._flat[alike]
         keep = self.keep(key)
@@ -51,7 +54,10 @@ class Painting(Covered):
             return None
         parts, inks = self.ink.loaded, self.ink.inks
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
-        if self.ink.swayed:
+        if self.coverage.tints is not None and key in self.coverage.tints:
+            assert isinstance(self.ink, TintedInk)
+            inks, add = self._varied(keep, old, self.ink.tinted(key, self.coverage.tints[key]))
+        elif self.ink.swayed:
             inks, add = self._sway(keep, key, old)
         elif self.locked:
             self._glaze(keep, key, old, add)
@@ -73,7 +79,13 @@ class Painting(Covered):
         assert self.ink is not None
         felt = self.scene.pressure
         pressure = felt.on_grid(key) if felt is not None else np.ones((TILE, TILE), np.float32)
-        colour, planes, inks = self.ink.under(key, pressure)
+        return self._varied(keep, old, self.ink.under(key, pressure))
+
+    def _varied(
+        self, keep: np.ndarray, old: Planes, under: tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]
+    ) -> tuple[tuple[Instance, ...], np.ndarray]:
+        """Returns the inks, and B, of a colour and amplitudes that differ from pixel to pixel, as `Ink.under` tells."""
+        colour, planes, inks = under
         add = np.empty((COLOURS + len(planes), TILE, TILE), np.float32)
         weight = coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA])
         coat.glaze(weight, colour, add[:_ALPHA])

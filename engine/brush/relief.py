@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -154,7 +154,7 @@ class Relief:
         if self.rim is not None and self.rim.colour is not None:
             stain = _Stain(self, coverage.tiles, self.rim, self.rim.colour)
         tiles = coverage.tiles
-        return Coverage(coverage.level, LazyTiles(tiles, lambda key: self.made(tiles, key).tile), coverage.rect, stain)
+        return replace(coverage, tiles=LazyTiles(tiles, lambda key: self.made(tiles, key).tile), stain=stain)
 
     def made(self, tiles: Tiles, key: TileKey) -> _Made:
         """Returns one tile of a coverage, thinned."""

@@ -11,10 +11,12 @@ from engine.brush import copies as copying
 from engine.brush import edits, prints, relief
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
+from engine.brush.felt import tints_of
 from engine.brush.footprint import Footprint
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.stamp import Edit
 from engine.brush.thinning import Thinning
+from engine.brush.tinting import Tinted
 from engine.canvas import commit, layers
 from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
@@ -62,7 +64,8 @@ class LiveStroke(Drawn):
         self._meeting = Meeting(level, self.origin, brush.radius, None if self.limit is None else self.limit.meets)
 
     def _new_mask(self) -> StrokeMask:
-        laid = prints.for_copies(self._tip, self.copies)
+        laid, tints = prints.for_copies(self._tip, self.copies), tints_of(self.brush)
+        laid = Tinted(laid, tints) if tints else laid
         return StrokeMask(self.level, self.origin, tip=laid, each=copying.each(self.copies))
 
     def _new_bed(self) -> Bed | None:

@@ -8,6 +8,7 @@ from immutables import Map
 
 from app.desk.knots import STRAIGHT, Knots
 from engine.brush.inputs import INPUTS
+from engine.brush.targets import Target
 
 OneCurve = str | Knots
 FALLING: Knots = ((0.0, 1.0), (1.0, 0.0))
@@ -49,6 +50,35 @@ def unit_knots(name: str, curve: OneCurve) -> OneCurve:
         return curve
     span = span_of(name, curve)
     return tuple((min(round(x / span, _DIGITS), 1.0), y) for x, y in curve)
+
+
+def heights_of(target: Target, curve: OneCurve | None) -> tuple[float, float]:
+    """Returns the factors at the bottom and at the top of the editor.  What adds to an angle or changes a colour has
+    in the middle what leaves it; an angle that goes from none on has that at the bottom."""
+    if target.own is None and not target.turns:
+        return 0.0, 1.0
+    if not target.turns:
+        return 0.0, 2.0
+    within = not isinstance(curve, tuple) or all(0.5 <= y <= 1.5 for _, y in curve)
+    return (0.5, 1.5) if within else (0.0, 1.0)
+
+
+def unit_heights(curve: OneCurve, heights: tuple[float, float]) -> OneCurve:
+    """Returns a curve with its factors as parts of what the editor shows."""
+    low, high = heights
+    if isinstance(curve, str) and heights != (0.0, 1.0):
+        curve = STRAIGHT
+    if isinstance(curve, str):
+        return curve
+    return tuple((x, min(max(round((y - low) / (high - low), _DIGITS), 0.0), 1.0)) for x, y in curve)
+
+
+def raised(curve: OneCurve | None, heights: tuple[float, float]) -> OneCurve | None:
+    """Returns a curve of the editor as one of factors; `unit_heights` is its inverse."""
+    low, high = heights
+    if not isinstance(curve, tuple) or heights == (0.0, 1.0):
+        return curve
+    return tuple((x, round(low + y * (high - low), _DIGITS)) for x, y in curve)
 
 
 def spread(name: str, curve: OneCurve | None, span: float) -> OneCurve | None:

@@ -57,7 +57,7 @@ def test_any_portions_give_the_same_dabs_bit_for_bit(brush, points, cuts):
 @given(BRUSHES, POINTS.map(timed))
 def test_what_is_compiled_does_what_its_text_does(brush, points):
     points.flags.writeable = False
-    known, dabs = felt.feeling(brush), np.zeros((2, 4096, 9))
+    known, dabs = felt.feeling(brush), np.zeros((2, 4096, 12))
     states = np.zeros((2, felt.STATE))
     walk = felt_dabs.walk_felt
     made = [

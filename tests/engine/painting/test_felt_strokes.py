@@ -34,6 +34,16 @@ LOOKS = {
     },
     "sway": {"shape": {"ratio": 0.3, "follow": "direction"}, "ink": [{"texture": "rock", "amount": 0.9}]},
     "bristles": {"shape": {"bristles": 12, "ratio": 0.4, "follow": "direction", "scatter": 0.5}},
+    "tints": {
+        "dynamics": {"hue": {"random_dab": [[0, 0.9], [1, 1.1]]}, "lightness": {"pressure": [[0, 1.6], [1, 1]]}},
+        "colour": "#a04030",
+    },
+    "inks": {
+        "ink": [{"texture": "rock", "amount": 0.9, "colour": "#20c040"}, {"texture": "stripes", "amount": 0.5}],
+        "dynamics": {"ink_1": {"distance": [[0, 0], [120, 1]]}, "chroma": {"random_stroke": [[0, 0.5], [1, 1]]}},
+        "shape": {"ratio": 0.4, "follow": "direction"},
+        "edge": {"curve": "wet", "width": 0.6, "colour": "#101830"},
+    },
     "changed": {"mode": "raster", "op": {"formula": "pressure - pic"}, "shape": {"scatter": 1, "follow": "direction"}},
 }
 PENS = st.lists(
@@ -81,7 +91,7 @@ def test_what_it_covers_is_found_again_within_its_bounds(look):
     command = stroke(points, origin=(5, -9), **LOOKS[look])
     session = painted(GROUND)
     live = portions(session, command, [1])
-    coverage = live._mask.coverage()
+    coverage = live._relief.over(live._mask.coverage())
     rect = stroke_bounds(command)
     assert rect.union(coverage.rect) == rect
     if "op" in LOOKS[look]:

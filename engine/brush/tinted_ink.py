@@ -1,0 +1,87 @@
+"""The ink of a brush whose dabs have colours and amounts of their own: what it is under any of them.
+
+With the colour C and the factor f of each component, a pixel's colour is C + sum f a s (X - C), as module `ink` has it:
+what a component adds is linear in C, and is known from what it adds over black and over white.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from engine.brush import sway
+from engine.brush.ink import Ink, Texture, resolve
+from engine.brush.settings import Brush
+from engine.numeric.address import TileKey
+from engine.texture.image import ImageSource
+from engine.texture.planes import sort_key
+from engine.texture.record import Instance
+
+_LOWEST, _HIGHEST = "#000000", "#ffffff"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Linear:
+    """A value by colour: `low` over black, `low + slope` over white; float32 (3,) each."""
+
+    low: np.ndarray
+    slope: np.ndarray
+
+    def under(self, colour: np.ndarray) -> np.ndarray:
+        """float32 (3, h, w), under colours of that shape."""
+        out: np.ndarray = self.low[:, None, None] + self.slope[:, None, None] * colour
+        return out
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Part:
+    """A component: what it adds to the colour, and the amplitude of each of its instances."""
+
+    shift: _Linear
+    amplitudes: tuple[tuple[Instance, _Linear], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class TintedInk(Ink):
+    """An ink that is also known under tints: a colour, and a factor for each of its `parts`."""
+
+    parts: tuple[_Part, ...] = ()
+
+    def tinted(self, key: TileKey, tints: np.ndarray) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
+        """Under tints, float32 (3 + parts, 128, 128), of a tile: as `Ink.under`."""
+        under = tints[:3]
+        found: dict[Instance, np.ndarray] = {}
+        colour = under.copy()
+        for part, factor in zip(self.parts, tints[3:], strict=True):
+            colour += factor * part.shift.under(under)
+            for made, amplitude in part.amplitudes:
+                more = factor * amplitude.under(under)
+                found[made] = found[made] + more if made in found else more
+        inks = tuple(sorted(found, key=lambda made: sort_key(made.key)))
+        for made in inks:
+            colour += found[made] * made.appearance(key.level, key.rect)[:3]
+        planes = [found[made] for made in inks]
+        empty = np.empty((0, *under.shape[1:]), np.float32)
+        return colour, np.concatenate(planes) if planes else empty, inks
+
+
+def tinted_ink(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> TintedInk:
+    """Returns the ink of a brush, as `ink.resolve`; what goes with the pressure is as at full pressure."""
+    ink = tuple(map(sway.still, brush.ink))
+    whole = resolve(replace(brush, ink=ink), textures, level, seed)
+    parts = []
+    for component in ink:
+        alone = replace(brush, ink=(component,))
+        low, high = (resolve(replace(alone, colour=colour), textures, level, seed) for colour in (_LOWEST, _HIGHEST))
+        ends = [{part.instance: part.amplitude for part in one.loaded} for one in (low, high)]
+        none = np.zeros(3, np.float32)
+        each = dict.fromkeys((*ends[0], *ends[1]))
+        amplitudes = tuple((made, _linear(*(end.get(made, none) for end in ends))) for made in each)
+        parts.append(_Part(_linear(low.base, high.base - np.float32(1.0)), amplitudes))
+    return TintedInk(whole.base, whole.loaded, parts=tuple(parts))
+
+
+def _linear(low: np.ndarray, high: np.ndarray) -> _Linear:
+    return _Linear(low, high - low)
