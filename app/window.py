@@ -32,6 +32,7 @@ from app.desk.places import going
 from app.desk.previews import Previews
 from app.desk.recovery.engine_thread import EngineThread, Start
 from app.desk.recovery.recovery_work import FindCards
+from app.desk.sharing.preset_work import BRUSH, bring_preset
 from app.desk.stock import TakeStock
 from app.drawing import Drawing
 from app.faults.fault_guard import FaultGuard
@@ -133,7 +134,9 @@ class Window:
             return False
         with self._guard.spare("on a drop"):
             if not self.layout.strip.dropped(desk, path, *self.pointers.at()):
-                if bringing.is_picture(path) or bringing.is_layered(path):
+                if path.suffix.lower() == BRUSH:
+                    bring_preset(desk, path)
+                elif bringing.is_picture(path) or bringing.is_layered(path):
                     bringing.offer(desk, path, desk.view.to_canvas(*self.pointers.at()))
                 else:
                     desk.guard(lambda: desk.open(path))

@@ -9,6 +9,7 @@ from pathlib import Path
 from app.canvas.view import Place
 from app.desk.known import Known
 from app.desk.outside.found_map import FoundMap
+from app.desk.presets import Preset
 from engine.painting.commands import Command
 from engine.painting.layer_commands import BakePlacement
 from engine.painting.places import Bookmark
@@ -47,7 +48,7 @@ class Asked:
     when the painting has it; `merge`: what merges layers once that is told, ink going no finer than `merge_level`;
     `bake`: what makes paint of a placement and loses detail; `film`: what is chosen of the film that is asked for;
     `bringing`: a picture that was given to the painting, and to which place of the canvas; `ground`: a map that is to
-    be laid."""
+    be laid; `brush`: one that is to be shared."""
 
     dialog: str = ""
     shown: str = ""
@@ -66,6 +67,7 @@ class Asked:
     film: FilmState = field(default_factory=FilmState)
     bringing: tuple[Path, Place] | None = None
     ground: FoundMap | None = None
+    brush: Preset | None = None
 
     def show(self, dialog: str) -> None:
         """Opens a dialog by its name."""

@@ -26,7 +26,7 @@ class Hand:
     """`provided`: textures that were posted to the engine, each with the serial of the painting that it is for;
     `paper_stays`: the brushes that are taken next are used on the paper of this one; `stabiliser`: how much the path
     of a stroke is smoothed, 0..1; `steadying`: how, a row of engine.brush.steadying.STEADIED; `colours`: those painted
-    with before, the last one first."""
+    with before, the last one first; `original`: the brush as it was taken, or saved."""
 
     colour: RGB = (0.11, 0.16, 0.24)
     other_colour: RGB = WHITE
@@ -36,6 +36,7 @@ class Hand:
     paper_stays: bool = False
     provided: set[tuple[int, DefineTexture]] = field(default_factory=set)
     sizes: Sizes = field(default_factory=Sizes)
+    original: Brush = field(default_factory=Brush)
     _brush: Brush = field(default_factory=Brush)
     _preset: str = ""
     _needs: tuple[DefineTexture, ...] = ()
@@ -81,7 +82,8 @@ class Hand:
         """Takes a brush; without a name or textures of its own it keeps those of the one before."""
         self.sizes.leave(self._preset, self._brush)
         self._brush = brush
-        self._preset = self._preset if preset is None else preset
+        if preset is not None:
+            self._preset, self.original = preset, brush
         self._needs = self._needs if needs is None else needs
 
     def change(self, **settings: Any) -> None:

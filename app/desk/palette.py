@@ -8,7 +8,7 @@ from app.desk.desk import Desk
 from app.desk.lab_state import lightened
 from app.desk.presets import Preset
 from engine.brush.settings import Brush
-from engine.makers.definitions import fitted, portable, refers, used
+from engine.makers.definitions import fitted, portable, refers, renamed, used
 from engine.painting.commands import DefineTexture
 from engine.studio.requests import Do
 
@@ -67,6 +67,8 @@ def _fit(desk: Desk) -> tuple[DefineTexture, ...]:
     scene = desk.known.scene
     known = {} if scene is None else {name: (kind, given) for name, kind, given in scene.definitions}
     taken = {row.name for row in desk.known.tables.kinds}
-    brush, needs, missing = fitted(desk.hand.brush, needs, known, taken)
-    desk.hand.take(brush, needs=needs)
+    brush, fitting, missing = fitted(desk.hand.brush, needs, known, taken)
+    names = {old.name: new.name for old, new in zip(needs, fitting, strict=True)}
+    desk.hand.original = renamed(desk.hand.original, names)
+    desk.hand.take(brush, needs=fitting)
     return missing

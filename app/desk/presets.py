@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +14,15 @@ import platformdirs
 from engine.brush import parts, settings
 from engine.brush.parts import Surface
 from engine.brush.settings import Brush
+from engine.checks.field_error import FieldError
+from engine.checks.values import described
 from engine.files.atomic import replacing
 from engine.makers import definitions
 from engine.painting.commands import DefineTexture
 
 BYTES_CAP = 1 << 20
 NAME_CAP = 40  # characters
+TAGS_CAP = 32
 OWN = "Own"  # the group of brushes that name none
 _GROUP_RANK = {"Basic": 0, OWN: 2}  # others lie between, by name
 
@@ -27,7 +30,8 @@ _GROUP_RANK = {"Basic": 0, OWN: 2}  # others lie between, by name
 @dataclass(frozen=True, slots=True)
 class Preset:
     """A brush under a name; presets of one `group` are listed together.  `textures`: definitions that it needs;
-    `coloured`: it is about its colour, which is painted with once it is chosen."""
+    `coloured`: it is about its colour, which is painted with once it is chosen;
+    `tags`: words that it is found by, besides its name and group."""
 
     name: str
     brush: Brush
@@ -35,6 +39,7 @@ class Preset:
     group: str = OWN
     textures: tuple[DefineTexture, ...] = ()
     coloured: bool = False
+    tags: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,22 +113,47 @@ def _read_paper(path: Path) -> Paper:
 
 
 def _read(path: Path) -> Preset:
-    data = _object(path, "a brush")
-    name = data.pop("name", None) or path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
+    name = path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
+    return replace(preset_of(_object(path, "a brush"), name, path.parent), path=path)
+
+
+def preset_of(data: dict[str, object], name: str, folder: Path) -> Preset:
+    """Returns the preset that an object tells, called `name` if it has none of its own; paths start from `folder`.
+    FieldError names the member."""
+    data = dict(data)
+    name = str(data.pop("name", None) or name)
     group = str(data.pop("group", OWN))
-    textures = definitions.read(data.pop("textures", []), "textures", path.parent)
+    tags = data.pop("tags", [])
+    if not isinstance(tags, list) or len(tags) > TAGS_CAP or not all(isinstance(tag, str) for tag in tags):
+        raise FieldError("tags", described(tags), f"a list of at most {TAGS_CAP} texts")
+    textures = definitions.read(data.pop("textures", []), "textures", folder)
     coloured = parts.flag(data.pop("coloured", False), "coloured")
     brush = settings.from_json(data.pop("brush", data))
-    return Preset(str(name), brush, path, group, textures, coloured)
+    return Preset(name, brush, None, group, textures, coloured, tuple(tags))
+
+
+def preset_json(preset: Preset) -> dict[str, object]:
+    """Returns the object that a preset's file holds."""
+    told: dict[str, object] = {"name": preset.name, "brush": settings.to_json(preset.brush)}
+    told |= {"group": preset.group} if preset.group != OWN else {}
+    told |= {"tags": list(preset.tags)} if preset.tags else {}
+    told |= {"coloured": True} if preset.coloured else {}
+    told |= {"textures": definitions.to_json(preset.textures)} if preset.textures else {}
+    return told
+
+
+def is_own(preset: Preset) -> bool:
+    """Tells whether it is one of the artist's own."""
+    return preset.path is not None and preset.path.parent != bundled_folder()
 
 
 def found(presets: Iterable[Preset], group: str, words: str) -> list[tuple[str, list[Preset]]]:
     """Presets by group, in their order: those of a group (all: ""), or those of any group that have each of `words` in
-    their names or their group's."""
+    their names, their group's or their tags."""
     out: dict[str, list[Preset]] = {}
     wanted = words.casefold().split()
     for preset in presets:
-        told = f"{preset.name} {preset.group}".casefold()
+        told = " ".join((preset.name, preset.group, *preset.tags)).casefold()
         if all(word in told for word in wanted) if wanted else group in ("", preset.group):
             out.setdefault(preset.group, []).append(preset)
     return list(out.items())
@@ -142,25 +172,29 @@ def nearest(presets: Iterable[Preset], words: str) -> Preset | None:
 def free_brush_name(name: str, presets: Iterable[Preset]) -> str:
     """Returns the name itself, or with a number, so that no bundled preset has it; one of the artist's own is
     replaced."""
+    return free_among(name, (preset.name for preset in presets if not is_own(preset)))
+
+
+def free_among(name: str, taken: Iterable[str]) -> str:
+    """Returns a name as it may be kept: itself, or with a number, where another brush has it."""
     name = " ".join("".join(ch for ch in name if ch.isprintable()).split())[:NAME_CAP] or "My brush"
-    taken = {p.name.lower() for p in presets if p.path is None or p.path.parent == bundled_folder()}
-    wanted, number = name, 1
-    while wanted.lower() in taken:
+    lower, wanted, number = {other.lower() for other in taken}, name, 1
+    while wanted.lower() in lower:
         number += 1
         wanted = f"{name} {number}"
     return wanted
+
+
+def written(preset: Preset, folder: Path) -> Preset:
+    """Writes a preset as `save_brush` does; returns it with its file."""
+    return replace(preset, path=save_brush(preset, folder))
 
 
 def save_brush(preset: Preset, folder: Path) -> Path:
     """Writes a preset as a file of the user's folder, in place of the one of that name."""
     folder.mkdir(parents=True, exist_ok=True)
     path = _own_path(preset.name, folder)
-    told: dict[str, Any] = {"name": preset.name, "brush": settings.to_json(preset.brush)}
-    if preset.coloured:
-        told["coloured"] = True
-    if preset.textures:
-        told["textures"] = definitions.to_json(preset.textures)
-    text = json.dumps(told, indent=1, ensure_ascii=False)
+    text = json.dumps(preset_json(preset), indent=1, ensure_ascii=False)
     with replacing(path) as file:
         file.write((text + "\n").encode("utf-8"))
     return path
@@ -172,9 +206,14 @@ def delete(preset: Preset) -> None:
         preset.path.unlink(missing_ok=True)
 
 
+def stem_of(name: str) -> str:
+    """Returns a brush's name as a file may be called."""
+    return "".join(ch if ch.isalnum() else "-" for ch in name.lower()).strip("-") or "brush"
+
+
 def _own_path(name: str, folder: Path) -> Path:
     """Returns the file of a name: another one where a brush of another name has it, such as "a b" and "a-b"."""
-    stem = "".join(ch if ch.isalnum() else "-" for ch in name.lower()).strip("-") or "brush"
+    stem = stem_of(name)
     path, number = folder / f"{stem}.json", 1
     while path.exists() and _name_in(path) != name:
         number += 1

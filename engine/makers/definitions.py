@@ -5,7 +5,7 @@ Light on purpose: the window imports it before the engine is loaded.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -41,8 +41,9 @@ def read(value: Any, place: str, folder: Path | None = None) -> tuple[DefineText
     if not isinstance(value, list) or len(value) > COUNT_CAP:
         raise FieldError(place, described(value), f"a list of at most {COUNT_CAP} textures")
     found: list[DefineTexture] = []
-    for i, member in enumerate(value):
-        given = {"do": "texture", **_grounded(member, folder)} if isinstance(member, dict) else member
+    members = value if folder is None else with_files(value, lambda path: str(folder.absolute() / path))
+    for i, member in enumerate(members):
+        given = {"do": "texture", **member} if isinstance(member, dict) else member
         command = parse(given, f"{place}[{i}]")
         if not isinstance(command, DefineTexture) or any(command.name == other.name for other in found):
             raise FieldError(f"{place}[{i}]", described(member), "a texture with a name of its own")
@@ -55,16 +56,13 @@ def to_json(textures: Iterable[DefineTexture]) -> list[dict[str, Any]]:
     return [{name: value for name, value in commands.to_json(command).items() if name != "do"} for command in textures]
 
 
-def _grounded(value: Any, folder: Path | None) -> Any:
-    """Returns the same with the paths of pictures made absolute."""
+def with_files(value: Any, change: Callable[[str], str]) -> Any:
+    """Returns definitions as JSON with other paths of pictures."""
     if isinstance(value, list):
-        return [_grounded(part, folder) for part in value]
+        return [with_files(part, change) for part in value]
     if not isinstance(value, dict):
         return value
-    return {
-        name: str(folder.absolute() / part) if folder and _is_path(name, part) else _grounded(part, folder)
-        for name, part in value.items()
-    }
+    return {name: change(part) if _is_path(name, part) else with_files(part, change) for name, part in value.items()}
 
 
 def kind_of(command: DefineTexture) -> str:

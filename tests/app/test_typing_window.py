@@ -11,7 +11,7 @@ def test_keys_just_before_a_dialog_are_not_typed_into_it(program):
     app = program()
     app.do("mousemove", 640, 300)
     app.settled()
-    app.do("key", "--delay", 2, *"bebxxxkkk", "ctrl+s")
+    app.do("key", "--delay", 2, *"bebxxxccc", "ctrl+s")
     app.box("name", "Save as")
     time.sleep(1.0)  # its text cursor blinks
     app.keys("Return")

@@ -96,7 +96,7 @@ class BrushList:
         nearest = presets.nearest(desk.known.presets, self._find) if entered else None
         if nearest is not None:
             hold(desk, nearest)
-            self._find = ""
+            self._find = self._seen = ""  # the list is the whole one again, and scrolls to it
         imgui.same_line(0, gap)
         if w.icon_button("all brushes", icons.GRID, "All brushes at once", size=side):
             imgui.open_popup("all brushes")

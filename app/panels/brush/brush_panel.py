@@ -18,7 +18,7 @@ from app.panels.brush import example_section, move_choice, shape_choice, tip_sec
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.dynamics_section import DynamicsSection
 from app.panels.brush.operations import Operations
-from app.panels.brush.save_brush import SaveBrush
+from app.panels.brush.save_brush import SaveBrush, draw_changed
 from app.panels.brush.size_row import draw_radius, draw_steadying
 from app.panels.brush.symmetry_section import SymmetrySection
 from app.panels.brush.texturing import Texturing
@@ -82,7 +82,9 @@ class BrushPanel:
             self._list.draw(desk, self._below)
         top = imgui.get_cursor_pos().y
         unfolded = 0.0
-        if w.section("Brush settings"):
+        shown = w.section("Brush settings", shared=True)
+        draw_changed(desk)
+        if shown:
             self._preview(desk)
             self._modes(desk)
             section = desk.hand.stroke_mode().section

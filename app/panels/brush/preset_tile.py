@@ -1,16 +1,14 @@
-"""A brush in the list: its picture, its name, its star, and the menu of those that are the artist's own."""
+"""A brush in the list: its picture, its name, its star."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import presets
-from app.desk.desk import Desk, FileWork
+from app.desk.desk import Desk
 from app.desk.holding.favourites import digit_of, star
 from app.desk.presets import Preset
+from app.panels.brush.preset_menu import draw_menu
 from app.panels.brush.preset_picture import THUMB, draw_stroke
 from app.panels.controls import widgets as w
 
@@ -32,12 +30,9 @@ def draw_tile(desk: Desk, preset: Preset, wide: float) -> tuple[bool, bool]:
     if taken and _within(spot):
         star(desk, preset)
         taken = False
-    own = preset.path is not None and preset.path.parent == presets.own_folder()
     keys = f"  (Ctrl+{digit})" if digit else ""
-    told = "\nRight click to delete it" if own else ""
-    w.tooltip(f"{preset.name}{keys}\nShift keeps the present size; the star makes it a favourite{told}")
-    if own:
-        _deletes(desk, preset)
+    w.tooltip(f"{preset.name}{keys}\nShift keeps the present size; the star makes it a favourite\nRight click for more")
+    draw_menu(desk, preset)
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
     grey = theme.ACCENT_SOFT if chosen else (0.21,) * 3 if hovered else (0.19,) * 3
     painter.add_rect_filled(corner, end, theme.packed(grey), 4 * desk.scale)
@@ -68,32 +63,6 @@ def _star(desk: Desk, spot: tuple[float, float, float], digit: int) -> None:
     if digit:
         at = ImVec2(left + (side - imgui.calc_text_size(str(digit)).x * 0.7) / 2, top + 0.3 * size)
         painter.add_text(imgui.get_font(), size * 0.7, at, theme.packed((1.0, 1.0, 1.0)), str(digit))
-
-
-def _deletes(desk: Desk, preset: Preset) -> None:
-    """Draws the menu of a brush of the artist's own."""
-    if not imgui.begin_popup_context_item(f"own {preset.name}"):
-        return
-    deleted = imgui.selectable(f"Delete “{preset.name}”", False)[0]
-    w.named("Delete")
-    if deleted:
-        desk.work(_Delete(preset))
-    imgui.end_popup()
-
-
-@dataclass(frozen=True, slots=True)
-class _Delete(FileWork):
-    preset: Preset
-
-    def carry_out(self) -> None:
-        presets.delete(self.preset)
-
-    def arrive(self, desk: Desk, found: None) -> None:
-        desk.learn(presets=tuple(one for one in desk.known.presets if one is not self.preset))
-        desk.say(f"Deleted the brush “{self.preset.name}”")
-
-    def fail(self, desk: Desk, fault: str) -> None:
-        desk.say(f"The brush was not deleted: {fault}", bad=True)
 
 
 def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, float]) -> None:

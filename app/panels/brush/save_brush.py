@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from pathlib import Path
-
 from imgui_bundle import imgui
 
 from app import icons
 from app.desk import palette, presets
-from app.desk.desk import Desk, FileWork
+from app.desk.desk import Desk
 from app.desk.hand import mixed_now
 from app.desk.presets import Preset
+from app.desk.sharing.preset_work import AddPreset, is_changed, keep_changes, take_back
 from app.panels.controls import widgets as w
 
 
@@ -42,7 +40,7 @@ class SaveBrush:
         w.named("name")
         w.tooltip("Its name among your own brushes")
         name = presets.free_brush_name(self._name, desk.known.presets)
-        if any(p.name == name and p.group == presets.OWN for p in desk.known.presets):
+        if any(p.name == name and presets.is_own(p) for p in desk.known.presets):
             imgui.text_disabled("Replaces your brush of this name")
         elif name != " ".join(self._name.split()):
             imgui.text_disabled(f"Saved as “{name}”")
@@ -56,28 +54,26 @@ class SaveBrush:
         imgui.end_popup()
 
 
-@dataclass(frozen=True, slots=True)
-class _Keep(FileWork):
-    """`stay`: the textures that only this painting has, which the file goes without."""
-
-    preset: Preset
-    stay: tuple[str, ...]
-
-    def carry_out(self) -> Path:
-        return presets.save_brush(self.preset, presets.own_folder())
-
-    def arrive(self, desk: Desk, found: Path) -> None:
-        preset, name = replace(self.preset, path=found), self.preset.name
-        others = tuple(p for p in desk.known.presets if (p.name, p.group) != (name, presets.OWN))
-        desk.learn(presets=(*others, preset))
-        desk.hand.take(desk.hand.brush, name)
-        without = f", without {' and '.join(self.stay)}, which only this painting has" if self.stay else ""
-        desk.say(f"Saved the brush “{name}”{without}", bad=bool(self.stay))
-
-    def fail(self, desk: Desk, fault: str) -> None:
-        desk.say(f"The brush was not saved: {fault}", bad=True)
-
-
 def _save(desk: Desk, name: str, coloured: bool) -> None:
     textures, stay = palette.belonging(desk)
-    desk.work(_Keep(Preset(name, mixed_now(desk.hand), textures=textures, coloured=coloured), stay))
+    desk.work(AddPreset(Preset(name, mixed_now(desk.hand), textures=textures, coloured=coloured), stay))
+
+
+def draw_changed(desk: Desk) -> None:
+    """Draws, on the right end of the header just drawn, that the brush is no longer its preset, with the ways back and
+    on."""
+    if not is_changed(desk):
+        return
+    side, gap = imgui.get_text_line_height() * 1.25, 4 * desk.scale
+    right = imgui.get_style().window_padding.x + imgui.get_content_region_avail().x
+    word = "changed"
+    imgui.same_line(0, 0)
+    imgui.set_cursor_pos_x(right - 2 * (side + gap) - imgui.calc_text_size(word).x)
+    imgui.text_disabled(word)
+    w.tooltip(f"It is no longer “{desk.hand.preset}” as it was chosen")
+    imgui.same_line(0, gap)
+    if w.icon_button("brush back", icons.UNDO, f"Back to “{desk.hand.preset}”", size=side):
+        take_back(desk)
+    imgui.same_line(0, gap)
+    if w.icon_button("brush keep", icons.DISK, "Keep it so; of a brush that came along, as one of your own", size=side):
+        keep_changes(desk)

@@ -292,6 +292,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "solid mesh": file_browser.choosing_mesh,
     "bring from": file_browser.choosing_to_bring,
     "bring in": BringIn,
+    "share brush": file_browser.sharing_brush,
+    "brush from": file_browser.choosing_brush,
     "unsaved": lambda desk: Unsaved(),
     "overtaken": _overtaken,
     "earlier": _earlier,

@@ -19,7 +19,9 @@ from app.desk.exporting.export_areas import export_wish
 from app.desk.exporting.export_state import EXPORT_FORMATS
 from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
 from app.desk.outside import bringing, pictured
+from app.desk.presets import stem_of
 from app.desk.previews import FileRow
+from app.desk.sharing.preset_work import BRUSH, SharePreset, bring_preset
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
 from engine.studio.filing.film_requests import MakeFilm
@@ -260,3 +262,16 @@ def choosing_mesh(desk: Desk) -> SystemDialog | Browser:
 def choosing_to_bring(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture, or a file of layers, to bring into the painting, in the middle of what is seen."""
     return _chooser("Bring in a picture", _folder(desk), _BROUGHT, False, bringing.offer)
+
+
+def sharing_brush(desk: Desk) -> SystemDialog | Browser:
+    """Asks where to write a brush that is shared."""
+    preset = desk.asked.brush
+    assert preset is not None
+    start = _folder(desk) / f"{stem_of(preset.name)}{BRUSH}"
+    return _chooser("Share a brush", start, (BRUSH,), True, lambda d, path: d.work(SharePreset(preset, path)))
+
+
+def choosing_brush(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a brush that somebody shared."""
+    return _chooser("Bring in a brush", _folder(desk), (BRUSH,), False, bring_preset)

@@ -1,0 +1,1 @@
+"""Brushes that are named, grouped, changed and handed on."""
