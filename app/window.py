@@ -25,6 +25,7 @@ from app.decoration import Decoration
 from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
+from app.desk.holding.palette_shelf import PALETTES, bring_palette
 from app.desk.holding.size_lock import follow_view
 from app.desk.moving import floating, held_box
 from app.desk.outside import bringing
@@ -136,6 +137,8 @@ class Window:
             if not self.layout.strip.dropped(desk, path, *self.pointers.at()):
                 if path.suffix.lower() == BRUSH:
                     bring_preset(desk, path)
+                elif path.suffix.lower() in PALETTES:
+                    bring_palette(desk, path)
                 elif bringing.is_picture(path) or bringing.is_layered(path):
                     bringing.offer(desk, path, desk.view.to_canvas(*self.pointers.at()))
                 else:

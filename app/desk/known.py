@@ -12,6 +12,7 @@ from typing import Any
 
 from app.desk.presets import Paper, Preset
 from engine.canvas.placing.pose import Pose
+from engine.files.swatches.colour_list import ColourList
 from engine.numeric.address import Rect
 from engine.painting.layering.placing_members import Placing
 from engine.studio import results
@@ -36,6 +37,7 @@ class Known:
     tables: Ready = Ready()  # noqa: RUF009  # it is frozen
     presets: tuple[Preset, ...] = ()
     papers: tuple[Paper, ...] = ()
+    palettes: tuple[ColourList, ...] = ()
     scene: Scene | None = None
     pending: int = 0
     writing: Writing = Writing()  # noqa: RUF009

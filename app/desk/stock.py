@@ -12,8 +12,10 @@ from app.desk.examples.example_state import Entry
 from app.desk.examples.example_use import gather
 from app.desk.holding.desk_record import KeptDesk
 from app.desk.holding.kept_desk import kept_file, read_kept, restore
+from app.desk.holding.palette_shelf import load_palettes, palettes_folder
 from app.desk.notices import Notice
 from app.desk.presets import Paper, Preset
+from engine.files.swatches.colour_list import ColourList
 
 
 class Stock(NamedTuple):
@@ -23,6 +25,7 @@ class Stock(NamedTuple):
     papers: tuple[Paper, ...]
     examples: tuple[Entry, ...]
     kept: KeptDesk
+    palettes: tuple[ColourList, ...]
     faults: tuple[str, ...]
 
 
@@ -39,12 +42,13 @@ class TakeStock(FileWork):
         kept, lost = example_state.load_examples(example_state.own_folder(), True)
         examples = example_state.arranged([*given, *kept])
         desk_kept, fault = read_kept(kept_file())
-        told = (*faults, *more, *torn, *bad, *lost, *([fault] if fault else ()))
-        return Stock((*bundled, *own), tuple(papers), tuple(examples), desk_kept, told)
+        palettes, worse = load_palettes(palettes_folder())
+        told = (*faults, *more, *torn, *bad, *lost, *worse, *([fault] if fault else ()))
+        return Stock((*bundled, *own), tuple(papers), tuple(examples), desk_kept, tuple(palettes), told)
 
     def arrive(self, desk: Desk, found: Stock) -> None:
         """Puts what was found on the desk."""
-        desk.learn(presets=found.presets or (presets.DEFAULT,), papers=found.papers)
+        desk.learn(presets=found.presets or (presets.DEFAULT,), papers=found.papers, palettes=found.palettes)
         desk.examples.entries = found.examples
         restore(desk, found.kept)
         gather(desk)

@@ -10,7 +10,8 @@ MOST_FAVOURITES = 9  # as many as there are digits to press
 @dataclass(frozen=True, slots=True)
 class KeptDesk:
     """`favourites`: names of brushes, in the order of their keys; `colours`: those painted with, #rrggbb, the last one
-    first."""
+    first; `palette`: the name of the one that is shown."""
 
     favourites: tuple[str, ...] = ("Pencil", "Ink pen", "Gouache", "Soft airbrush", "Eraser")
     colours: tuple[str, ...] = ()
+    palette: str = ""

@@ -37,7 +37,8 @@ def read_kept(path: Path) -> tuple[KeptDesk, str]:
             raise FieldError("", described(data), "an object")
         favourites = _texts(data.get("favourites", list(KeptDesk().favourites)), "favourites", MOST_FAVOURITES)
         colours = _texts(data.get("colours", []), "colours", HISTORY)
-        return KeptDesk(favourites, tuple(to_hex(from_hex(colour)) for colour in colours)), ""
+        (palette,) = _texts([data.get("palette", "")], "palette", 1)
+        return KeptDesk(favourites, tuple(to_hex(from_hex(colour)) for colour in colours), palette), ""
     except FileNotFoundError:
         return KeptDesk(), ""
     except (OSError, ValueError) as error:
@@ -62,7 +63,8 @@ class KeepDesk(FileWork):
         path.parent.mkdir(parents=True, exist_ok=True)
         if read_kept(path)[1]:
             os.replace(path, path.with_name("desk.damaged.json"))
-        told = {"favourites": self.kept.favourites, "colours": self.kept.colours}
+        kept = self.kept
+        told = {"favourites": kept.favourites, "colours": kept.colours, "palette": kept.palette}
         with replacing(path) as file:
             file.write((json.dumps(told, indent=1, ensure_ascii=False) + "\n").encode("utf-8"))
 

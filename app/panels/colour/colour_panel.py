@@ -9,6 +9,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.desk.colours import MOST_CHROMA, RGB, from_hex, from_oklch, to_hex, to_oklch
 from app.desk.desk import Desk
+from app.panels.colour.palette_section import draw_palette
 from app.panels.controls import widgets as w
 from app.tools.filling_gestures import drop_colour
 
@@ -32,6 +33,7 @@ class ColourPanel:
         self._sliders(desk)
         self._pair(desk)
         self._history(desk)
+        draw_palette(desk)
 
     def _wheel(self, desk: Desk) -> None:
         room = imgui.get_content_region_avail().x

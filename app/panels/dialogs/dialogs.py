@@ -292,6 +292,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "solid mesh": file_browser.choosing_mesh,
     "bring from": file_browser.choosing_to_bring,
     "bring in": BringIn,
+    "palette from": file_browser.choosing_palette,
+    "palette to": file_browser.writing_palette,
     "share brush": file_browser.sharing_brush,
     "brush from": file_browser.choosing_brush,
     "unsaved": lambda desk: Unsaved(),

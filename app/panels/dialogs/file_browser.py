@@ -18,6 +18,7 @@ from app.desk.examples import example_work
 from app.desk.exporting.export_areas import export_wish
 from app.desk.exporting.export_state import EXPORT_FORMATS
 from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
+from app.desk.holding.palette_shelf import PALETTES, WritePalette, bring_palette, palette_to_write
 from app.desk.outside import bringing, pictured
 from app.desk.presets import stem_of
 from app.desk.previews import FileRow
@@ -275,3 +276,15 @@ def sharing_brush(desk: Desk) -> SystemDialog | Browser:
 def choosing_brush(desk: Desk) -> SystemDialog | Browser:
     """Asks for a brush that somebody shared."""
     return _chooser("Bring in a brush", _folder(desk), (BRUSH,), False, bring_preset)
+
+
+def choosing_palette(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a palette."""
+    return _chooser("Bring in a palette", _folder(desk), PALETTES, False, bring_palette)
+
+
+def writing_palette(desk: Desk) -> SystemDialog | Browser:
+    """Asks where to write the palette that is shown."""
+    palette = palette_to_write(desk)
+    start = _folder(desk) / f"{stem_of(palette.name)}.gpl"
+    return _chooser("Write a palette", start, (".gpl",), True, lambda d, path: d.work(WritePalette(palette, path)))

@@ -1,0 +1,1 @@
+"""Palettes of colours, as other programs write them."""
