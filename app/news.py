@@ -9,6 +9,7 @@ from app.desk import flight
 from app.desk.desk import Desk, Hear, Message
 from app.desk.files import Done
 from app.desk.holding.kept_desk import keep_colours
+from app.desk.holding.picking_up import take_ink
 from app.desk.known import Known, known_after
 from app.desk.moving import independence
 from app.desk.outside import clipboard
@@ -21,6 +22,7 @@ from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
 from engine.studio.moving.move_requests import BakeTold, Extent
 from engine.studio.moving.sheet_records import CarriedSheets, Shown
+from engine.studio.past.past_records import Here
 from engine.studio.results import Result
 
 Hearers = Callable[[type], Sequence[Hear]]  # those who hear results of a type
@@ -76,6 +78,7 @@ HEARS: dict[type, Hear] = {
     results.Scene: _scene,
     results.Overtaken: _overtaken,
     results.Picked: _picked,
+    Here: take_ink,
     Copied: clipboard.give_away,
     results.Looked: flight.fly,
     Tried: lambda desk, tried, now: setattr(desk.adjusting, "best", tried),

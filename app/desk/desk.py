@@ -23,6 +23,7 @@ from app.desk.guides.guide_state import GuideState
 from app.desk.hand import Hand, radius_of
 from app.desk.holding.desk_record import KeptDesk
 from app.desk.holding.hand_sight import HandSight
+from app.desk.holding.pick_state import PickState
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.land.land_state import LandState
@@ -113,6 +114,7 @@ class Desk:
     work: Callable[[FileWork], None] = _nowhere  # with files, on their own thread
     hand: Hand = field(default_factory=Hand)
     kept: KeptDesk = KeptDesk()  # noqa: RUF009  # it never changes
+    picking: PickState = field(default_factory=PickState)
     hand_sight: HandSight = field(default_factory=HandSight)
     known: Known = field(default_factory=Known)
     painting: bool = False

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 
-from app.canvas.view import Place
 from app.desk.desk import Desk
 from app.desk.examples import example_use
+from app.desk.holding.picking_up import pick_at
 from app.desk.match_state import SMALLEST
 from app.input.events import PenEvent
 from app.tools.gesture import Gesture
 from engine.numeric.address import Rect
-from engine.studio.requests import Pick
 
 _CLICK = 6.0  # points that a hand moves as it clicks, at most
 
@@ -20,9 +19,7 @@ def pick(desk: Desk, first: PenEvent) -> Gesture:
     """Takes the colour under the pointer."""
     event = first
     while True:
-        place: Place = desk.view.to_canvas(event.x, event.y)
-        level = desk.view.shown_level
-        desk.post(Pick(level, *place.pixel(level)))
+        pick_at(desk, event.x, event.y, event.kind == "up")
         if event.kind == "up":
             return
         event = yield

@@ -172,11 +172,14 @@ class Swatch:
 
 @dataclass(frozen=True, slots=True)
 class Pick:
-    """The colour of a pixel."""
+    """The colour of a pixel, or of a disc around it by its `radius` in pixels; of what is seen, or of a `layer` of
+    paint alone."""
 
     level: int
     x: int
     y: int
+    radius: int = 0
+    layer: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

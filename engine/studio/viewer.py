@@ -22,8 +22,8 @@ from engine.session.session import Session
 from engine.strokes.example_stroke import Live
 from engine.strokes.live_heaps import live_heaps
 from engine.strokes.paint_stroke import LiveStroke
+from engine.studio import picking, results
 from engine.studio import requests as q
-from engine.studio import results
 from engine.studio.lit.seen_heights import SeenHeights
 from engine.studio.masked.mask_alone import MaskAlone
 from engine.studio.moving import placed_stroke
@@ -179,10 +179,13 @@ class Viewer(Owned):
         return kept_planes(layer, level, rect, cache)
 
     def _pick(self, request: q.Pick) -> None:
-        pixel = self._plan.by_now(lambda: self.picture(request.level, Rect.at(request.x, request.y, 1, 1)))[:, 0, 0]
-        alpha = float(pixel[3])
-        r, g, b = (float(min(1.0, max(0.0, v / alpha))) if alpha > 0 else 0.0 for v in pixel[:3])
-        self._subject.send(results.Picked((r, g, b), alpha))
+        rect, root = picking.looked_over(request), _seen_root(self._subject, self.looking)
+        alone = picking.alone(root, request.layer)
+        read = piece_reader(request.level, rect, self._read, self._read_placed)
+        seen = self._plan.by_now(
+            lambda: self.picture(request.level, rect) if alone is None else composite(alone, request.level, rect, read)
+        )
+        self._subject.send(picking.averaged(seen))
 
 
 def _seen_root(subject: Subject, looking: Painting | None) -> Group:

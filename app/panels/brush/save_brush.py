@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
 from app import icons
 from app.desk import palette, presets
@@ -62,6 +62,8 @@ def _save(desk: Desk, name: str, coloured: bool) -> None:
 def draw_changed(desk: Desk) -> None:
     """Draws, on the right end of the header just drawn, that the brush is no longer its preset, with the ways back and
     on."""
+    imgui.same_line(0, 0)
+    imgui.dummy(ImVec2(0, imgui.get_text_line_height() * 1.25))  # as high with the buttons as without: nothing moves
     if not is_changed(desk):
         return
     side, gap = imgui.get_text_line_height() * 1.25, 4 * desk.scale

@@ -9,6 +9,7 @@ from app.desk.desk import Desk
 from app.desk.framing.frame_state import FRAME_TOOL
 from app.panels.options import fill_options, mask_options
 from app.panels.options.frame_options import FRAME_OPTIONS_WIDTH, draw_frame_options
+from app.panels.options.pick_options import PICK_OPTIONS_WIDTH, draw_pick
 from app.tools.tools import TOOLS
 
 
@@ -25,6 +26,7 @@ _OF_TOOLS = {
     "enclose": Options(49.0, fill_options.draw),
     "gradient": Options(49.0, fill_options.draw),
     "wand": Options(35.5, fill_options.draw),
+    "pick": Options(PICK_OPTIONS_WIDTH, draw_pick),
     FRAME_TOOL: Options(FRAME_OPTIONS_WIDTH, draw_frame_options),
 }
 _MASK = Options(49.0, mask_options.draw_mask)

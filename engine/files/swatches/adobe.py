@@ -13,7 +13,7 @@ import struct
 from engine.files.fault import FileError
 from engine.files.swatches.colour_list import MOST_COLOURS, ColourList, NamedColour, plain_name
 
-RGB = tuple[float, float, float]
+_RGB = tuple[float, float, float]
 _D50 = 0.9642, 1.0, 0.8249
 _TO_SRGB = (  # linear, from XYZ under D50, by Bradford
     (3.1338561, -1.6168667, -0.4906146),
@@ -81,7 +81,7 @@ def _aco_part(reader: _Reader, file: str, wanted: int) -> list[NamedColour]:
     return colours
 
 
-def _aco_colour(space: int, values: list[int]) -> RGB | None:
+def _aco_colour(space: int, values: list[int]) -> _RGB | None:
     """Returns a colour of one of Photoshop's spaces; None for those of printers' books."""
     w, x, y, z = values
     if space == 0:
@@ -125,7 +125,7 @@ def read_ase(data: bytes, file: str) -> ColourList:
     return ColourList("", tuple(colours))
 
 
-def _ase_colour(reader: _Reader, file: str) -> RGB:
+def _ase_colour(reader: _Reader, file: str) -> _RGB:
     model = reader.take("4s")[0]
     count = {b"RGB ": 3, b"CMYK": 4, b"LAB ": 3, b"Gray": 1}.get(bytes(model) if isinstance(model, bytes) else b"")
     if count is None:
@@ -141,12 +141,12 @@ def _ase_colour(reader: _Reader, file: str) -> RGB:
     return _held(r), _held(g), _held(b)
 
 
-def _cmyk(c: float, m: float, y: float, k: float) -> RGB:
+def _cmyk(c: float, m: float, y: float, k: float) -> _RGB:
     r, g, b = (_held((1 - part) * (1 - k)) for part in (c, m, y))
     return r, g, b
 
 
-def _lab(light: float, a: float, b: float) -> RGB:
+def _lab(light: float, a: float, b: float) -> _RGB:
     fy = (light + 16) / 116
     xyz = [w * _cubed(f) for w, f in zip(_D50, (fy + a / 500, fy, fy - b / 200), strict=True)]
     linear = (sum(m * v for m, v in zip(row, xyz, strict=True)) for row in _TO_SRGB)

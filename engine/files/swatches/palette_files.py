@@ -13,7 +13,7 @@ from engine.files.swatches.colour_list import ColourList, plain_name
 from engine.files.swatches.gpl import gpl_text, read_gpl
 from engine.files.swatches.kpl import read_kpl
 
-BYTES_CAP = 16 << 20
+_BYTES_MOST = 16 << 20
 READERS: dict[str, Callable[[bytes, str], ColourList]] = {
     ".gpl": read_gpl,
     ".aco": read_aco,
@@ -28,9 +28,9 @@ def read_palette(path: Path) -> ColourList:
     if reader is None:
         raise FileError(path.name, f"found no palette, expected one of {', '.join(READERS)}")
     with path.open("rb") as file:
-        data = file.read(BYTES_CAP + 1)
-    if len(data) > BYTES_CAP:
-        raise TooMuch(path.name, f"more than {BYTES_CAP >> 20} MiB")
+        data = file.read(_BYTES_MOST + 1)
+    if len(data) > _BYTES_MOST:
+        raise TooMuch(path.name, f"more than {_BYTES_MOST >> 20} MiB")
     found = reader(data, path.name)
     if not found.colours:
         raise FileError(path.name, "found no colour in it")

@@ -239,6 +239,27 @@ def test_picking_takes_the_colour_that_is_seen():
     assert window.other[-1].alpha == 0.0
 
 
+def test_a_disc_gives_the_mean_of_its_paint_and_a_layer_what_it_has_alone():
+    window = Window()
+    for layer, colour, x in (("Low", "#ff0000", 0), ("High", "#0000ff", 200)):
+        window.studio.do(q.Do(c.AddLayer(layer)))
+        window.studio.do(q.Begin(0, (0, 0), Brush(radius=40.0, hardness=1.0, colour=colour, dynamics=Map())))
+        window.studio.do(q.Points(line(2, float(x), 50.0, 100.0, 0.0)))
+        window.studio.do(q.Finish())
+    picks = [(95, 0, None), (200, 0, None), (200, 0, "Low"), (200, 0, "none of that name"), (150, 60, None)]
+    for x, radius, layer in picks:
+        window.studio.do(q.Pick(0, x, 50, radius, layer))
+    red, blue, nothing, seen, both = [found for found in window.other if isinstance(found, results.Picked)]
+    assert (red.rgb, blue.rgb, seen.rgb) == ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 1.0))
+    assert nothing.alpha == 0.0
+    assert both.rgb[0] == pytest.approx(both.rgb[2], abs=0.05)
+    assert both.rgb[0] + both.rgb[2] == pytest.approx(1.0, abs=0.01)
+    assert 0.3 < both.alpha < 0.9
+    window.studio.do(q.Do(c.SetLayer("High", opacity=0.5, visible=False)))
+    window.studio.do(q.Pick(0, 200, 50, 0, "High"))
+    assert (window.other[-1].rgb, window.other[-1].alpha) == ((0.0, 0.0, 1.0), 1.0)
+
+
 @pytest.mark.parametrize("mode", ["paint", "erase", "smooth"])
 def test_a_preset_paints_its_own_thumbnail(mode):
     window = Window()
