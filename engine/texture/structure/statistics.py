@@ -33,7 +33,7 @@ _SCALES = 4
 _LAGS = 3  # pixels that autocorrelations reach to each side
 _QUANTILES = 1024
 Kind = TypeVar("Kind", "LowStatistics", "BandStatistics")
-Found = TypeVar("Found")
+Outcome = TypeVar("Outcome")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,12 +100,12 @@ def bands_measured(planes: np.ndarray, most: int) -> tuple[BandStatistics, ...]:
     return _ended(_measuring(planes, most))
 
 
-def _ended(work: Generator[None, None, Found]) -> Found:
+def _ended(work: Generator[None, None, Outcome]) -> Outcome:
     while True:
         try:
             next(work)
         except StopIteration as stop:
-            found: Found = stop.value
+            found: Outcome = stop.value
             return found
 
 
