@@ -70,7 +70,7 @@ def laid_out(picture: np.ndarray, wanted: Joint, size: Size, seed: int, finest: 
     """Yields the steps to planes (R, h, w) of the grid of scale `finest`, or of the coarsest that there is room for, of
     a texture of a size, laid out as an example (C, h, w); `wanted`: its statistics, or others of the same axes."""
     top = top_of((picture.shape[1], picture.shape[2]), size)
-    grounds = _grounds(picture, wanted, max(top, 0))
+    grounds = yield from _grounds(picture, wanted, max(top, 0))
     planes, source = yield from _begun(grounds[top], wanted, halved_size(size, top), seed, top)
     yield Progressed(0.5, planes)
     for scale in range(top - 1, finest - 1, -1):
@@ -78,7 +78,7 @@ def laid_out(picture: np.ndarray, wanted: Joint, size: Size, seed: int, finest: 
         yield Progressed(0.5 + 0.5 * (top - scale) / (top - finest), planes)
 
 
-def _grounds(picture: np.ndarray, wanted: Joint, top: int) -> list[Ground]:
+def _grounds(picture: np.ndarray, wanted: Joint, top: int) -> Generator[Progressed, None, list[Ground]]:
     """Returns the example at the scales up to one: mirrored at its edges, so that none meets the other."""
     planes = wanted.axes.planes(picture)
     around = np.pad(planes, ((0, 0), (0, planes.shape[1]), (0, planes.shape[2])), mode="symmetric")
@@ -87,6 +87,7 @@ def _grounds(picture: np.ndarray, wanted: Joint, top: int) -> list[Ground]:
     whole, half, out = (around.shape[1], around.shape[2]), rfft2(around), []
     for scale in range(top + 1):
         grid, (height, width) = halved_size(whole, scale), halved_size((planes.shape[1], planes.shape[2]), scale)
+        yield Progressed(0.0)
         seen = planes if scale == 0 else irfft2(masked(resized(half, whole[1], grid), low_mask(grid)), grid, True)
         seen = np.ascontiguousarray(seen[:, :height, :width])
         out.append(Ground(seen, spreads, np.ascontiguousarray((seen * spreads[:, None, None]).transpose(1, 2, 0))))

@@ -90,9 +90,15 @@ def analysing(picture: np.ndarray, axes: ColourAxes | None = None) -> Generator[
     size = planes.shape[1], planes.shape[2]
     scales = yield from _measuring(planes, _SCALES)
     made, half = filters_of(size, len(scales)), rfft2(planes)
-    lows = [_of_low(masked(resized(half, size[1], at), low_mask(at)), at) for at in made.sizes]
+    yield
+    lows = []
+    for at in made.sizes:
+        lows.append(_of_low(masked(resized(half, size[1], at), low_mask(at)), at))
+        yield
+    pixels = sorted_quantiles(planes)
+    yield
     high = variances(masked(half, made.high), size[1])
-    return Joint(axes, sorted_quantiles(planes), sorted_quantiles(picture[3:]), high, tuple(lows), scales, size)
+    return Joint(axes, pixels, sorted_quantiles(picture[3:]), high, tuple(lows), scales, size)
 
 
 def bands_measured(planes: np.ndarray, most: int) -> tuple[BandStatistics, ...]:
