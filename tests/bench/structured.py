@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from bench import Figure, Skipped
-from bench.clock import best
+from bench.clock import processor
 from bench.joint_statistics import yardstick
 from engine.makers import with_structure
 from engine.numeric.address import Rect
@@ -40,8 +40,9 @@ PAINTED = ("bread", "felt", "mossy-gravel", "leaves", "rust-and-paint", "old-sno
 
 
 def measure(small: bool = False) -> Iterator[Figure | Skipped]:
-    side, repeats = (64, 1) if small else (SIDE, 3)
-    examples = dict(list(pictures(side).items())[-1 if small else 0 :])
+    side, repeats = (64, 1) if small else (SIDE, 5)
+    examples = pictures(side)
+    examples = {"bread": examples["bread"]} if small else examples
     for structure in ("objects",) if small else with_structure.ALL[1:]:
         made = {name: textured(example, structure, side) for name, example in examples.items()}
         far = {name: yardstick(*map(_last, (examples[name], texture))) for name, texture in made.items()}
@@ -50,9 +51,10 @@ def measure(small: bool = False) -> Iterator[Figure | Skipped]:
         mean = float(np.mean(list(far.values())))
         yield Figure(f"{structure}, yardstick", mean, "", "0.20", mean / YARDSTICK, 1.0, note=f"copied: {told}")
         for kind, bound in (("grey", GREY), ("colour", COLOUR)):
-            example = next(iter(examples.values()))[:1] if kind == "grey" else list(examples.values())[-1][:3]
-            taken = best(repeats, partial(textured, example, structure, side))[0]
-            yield Figure(f"{structure}, {kind} {side}", taken * 1e3, "ms", f"{bound} s", taken / bound, 1.0)
+            example = np.concatenate([_rock(side, seed) for seed in range(1 if kind == "grey" else 3)])
+            work, note = partial(textured, example, structure, side), "seconds of the processor"
+            taken = min(processor(work) for _ in range(repeats))
+            yield Figure(f"{structure}, {kind} {side}", taken * 1e3, "ms", f"{bound} s", taken / bound, 1.0, note=note)
     if not small:
         yield from _histograms(examples, side)
 
@@ -91,8 +93,12 @@ def pictures(side: int) -> dict[str, np.ndarray]:
         pass
     for name in PAINTED:
         found[name] = _painted(name, min(side, INNER))
-    rock = instance("rock", {"period": 24, "seed": 3}, 0, 0).appearance(0, Rect.at(0, 0, side, side))
-    return found | {"rock": np.clip(0.5 + 0.5 * rock, 0.0, 1.0).astype(np.float32)} | {"bread": found["bread"]}
+    return found | {"rock": _rock(side, 3)}
+
+
+def _rock(side: int, seed: int) -> np.ndarray:
+    found = instance("rock", {"period": 24, "seed": seed}, 0, 0).appearance(0, Rect.at(0, 0, side, side))
+    return np.clip(0.5 + 0.5 * found, 0.0, 1.0).astype(np.float32)
 
 
 def _painted(name: str, side: int) -> np.ndarray:
