@@ -54,7 +54,8 @@ class Smoother:
         if not len(samples):
             return samples
         first = samples[:1] if self._raw is None else samples[:0]
-        samples[:, _TURN:] = self._unwound(samples[:, _TURN:])
+        if samples.shape[1] > _TURN:
+            samples[:, _TURN:] = self._unwound(samples[:, _TURN:])
         steadied = self._steadied(samples)
         before = samples[:0] if self._recent is None else self._recent
         controls = np.concatenate([before, first, first, steadied[len(first) :]])
@@ -73,7 +74,7 @@ class Smoother:
         return _pieces(np.concatenate([self._recent, end, end]), self._tolerance)
 
     def _unwound(self, turns: np.ndarray) -> np.ndarray:
-        """Returns rotations, float64 (n, 0..1) in degrees, without jumps by whole turns."""
+        """Returns rotations, float64 (n, 1) in degrees, without jumps by whole turns."""
         before = turns[:1] if self._raw is None else self._raw[None, _TURN:]
         out: np.ndarray = np.unwrap(np.concatenate([before, turns]), axis=0, period=360.0)[1:]
         return out

@@ -1,5 +1,7 @@
 """Painting on what a placement shows: the stroke on its source is seen where the pen was."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -72,6 +74,15 @@ def test_tilt_is_turned_along():
     np.testing.assert_array_equal(aimed.points(np.array([[3.0, 4, 1, 30, 10, 0]]))[0], [4, -3, 1, 10, -30, 0])
     aimed = Through("S", Pose(mirror=True).similarity).begun(0, (0, 0))
     np.testing.assert_array_equal(aimed.points(np.array([[3.0, 4, 1, 30, 10, 0]]))[0], [-3, 4, 1, -30, 10, 0])
+
+
+@pytest.mark.parametrize("pose", [Pose(turn=1), Pose(turn=2), Pose(mirror=True), Pose(turn=3, mirror=True)])
+def test_the_barrel_is_turned_as_the_pen_leans(pose):
+    aimed = Through("S", pose.similarity).begun(0, (0, 0))
+    angle = math.radians(25)
+    row = aimed.points(np.array([[3.0, 4, 1, 40 * math.cos(angle), 40 * math.sin(angle), 0, 25]]))[0]
+    turned = math.radians(row[6])
+    np.testing.assert_allclose(row[3:5], [40 * math.cos(turned), 40 * math.sin(turned)], atol=1e-9)
 
 
 @pytest.mark.parametrize(

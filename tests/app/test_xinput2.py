@@ -72,6 +72,16 @@ def test_tilt_in_other_units_becomes_degrees():
     assert x.Axis("tilt_x", -64, 63).value(-64) == -64.0
 
 
+def test_a_barrel_that_is_told_becomes_degrees_and_none_is_told_as_none():
+    assert x.Axis("rotation", -900, 899).value(450) == 90.0
+    assert x.Axis("rotation", 0, 0).value(7) == 0.0
+    told, _keep = report(x.MOTION, values={2: 4000.0, 5: -450.0})
+    device = pen()
+    assert x.pen_event(told, device).rotation is None
+    device.axes[5] = x.Axis("rotation", -900, 899)
+    assert x.pen_event(told, device).rotation == -90.0
+
+
 @pytest.mark.parametrize(("detail", "dx", "dy"), [(4, 0, 1), (5, 0, -1), (6, 1, 0), (7, -1, 0)])
 def test_buttons_four_to_seven_are_the_wheel(detail, dx, dy):
     event, _keep = report(x.BUTTON_PRESS, detail=detail)

@@ -123,3 +123,13 @@ def test_a_quick_brush_takes_a_tremor_out_of_slow_lines():
     samples[:, 1] = rng.normal(0, 0.4, 400)
     assert np.abs(np.diff(smooth(samples, stabiliser=1.0, way="quick")[100:-60, 1])).mean() < 0.05
     assert np.abs(np.diff(smooth(samples)[100:-60, 1])).mean() > 0.1
+
+
+def test_a_barrel_turns_on_past_a_full_turn():
+    samples = np.zeros((8, 7))
+    samples[:, 0], samples[:, 6] = np.arange(8) * 5.0, (340.0 + 10.0 * np.arange(8)) % 360.0
+    parts = Smoother()
+    points = np.concatenate([*(parts.add(row[None]) for row in samples), parts.finish()])
+    assert points.shape[1] == 7
+    assert (np.diff(points[:, 6]) >= 0).all()
+    assert points[[0, -1], 6].tolist() == [340.0, 410.0]
