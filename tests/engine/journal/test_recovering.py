@@ -345,3 +345,17 @@ def test_points_wait_no_longer_than_fifty_milliseconds_though_the_journals_threa
         there = sum(map(len, read_story(journal.entry.folder).asked[number].points))
         assert there == len(posted) or now[0] + between - posted[there] <= 0.05
     journal.close(End.STAYS)
+
+
+def test_the_turns_of_a_barrel_come_back_from_a_stroke_that_was_cut_off(tmp_path):
+    journal = Journal(head_of_new(), tmp_path)
+    number = journal.begin(told_touch(Touch(0, (0, 0), Brush()), told_brush(Brush())))
+    told = np.arange(21.0).reshape(3, 7)
+    for row in told:
+        journal.points(number, row[None])
+    while not journal.settled:
+        time.sleep(0.01)
+    journal.close(End.STAYS)
+    asked = read_story(journal.entry.folder).asked[number]
+    assert np.array_equal(np.concatenate(asked.points), told)
+    assert asked.fitted().shape == (3, 7)
