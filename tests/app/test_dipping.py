@@ -4,7 +4,7 @@ import json
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from immutables import Map
 
@@ -33,6 +33,7 @@ def bundled(name):
     return next(preset for preset in found if preset.name == name)
 
 
+@settings(deadline=None)
 @given(COLOURS, COLOURS, COLOURS)
 def test_a_colour_that_goes_along_keeps_at_least_half_of_its_contrast_and_stays_a_colour(part, old, new):
     made = gone_along(from_hex(part), from_hex(old), from_hex(new))
@@ -43,6 +44,7 @@ def test_a_colour_that_goes_along_keeps_at_least_half_of_its_contrast_and_stays_
     assert gone_along(from_hex(part), from_hex(old), from_hex(old)) == from_hex(part)
 
 
+@settings(deadline=None)
 @given(COLOURS, st.integers(0, 255))
 def test_along_with_a_grey_all_is_grey_where_the_brush_was_mixed_for_a_colour(part, grey):
     made = gone_along(from_hex(part), from_hex(OCHRE), (grey / 255,) * 3)
@@ -64,6 +66,7 @@ def test_blue_gouache_has_no_ochre_marks():
     assert to_oklch(painted.ink[0].rgb)[0] > before > to_oklch(painted.edge.rgb)[0]
 
 
+@settings(deadline=None)
 @given(BRUSHES, COLOURS)
 def test_a_dipped_brush_tells_nothing_of_what_is_fixed_and_has_that_as_it_was(brush, colour):
     painted = dipping.dipped(brush, colour)
@@ -80,6 +83,7 @@ def test_a_dipped_brush_tells_nothing_of_what_is_fixed_and_has_that_as_it_was(br
     )
 
 
+@settings(deadline=None)
 @given(BRUSHES.filter(lambda brush: brush.ink), COLOURS, COLOURS, st.data())
 def test_an_ink_that_is_changed_is_as_it_was_set_and_the_others_as_they_were(brush, colour, wanted, data):
     i = data.draw(st.integers(0, len(brush.ink) - 1))
@@ -95,6 +99,7 @@ def test_an_ink_that_is_changed_is_as_it_was_set_and_the_others_as_they_were(bru
     assert dipping.with_ink(brush, colour, i, replace(shown[i], amount=0.25)).colour == brush.colour
 
 
+@settings(deadline=None)
 @given(BRUSHES, COLOURS, EDGES)
 def test_a_rim_that_is_changed_is_as_it_was_set(brush, colour, edge):
     made = dipping.with_rim(brush, colour, edge)

@@ -4,7 +4,7 @@ import json
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.actions.actions import ACTIONS, by_key, perform
@@ -70,6 +70,7 @@ def test_colours_are_kept_once_they_are_others_and_come_first_again(desk):
     assert desk.hand.colours == [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
 
 
+@settings(deadline=None)
 @given(NAMES, COLOURS)
 def test_what_is_kept_is_read_again(tmp_path_factory, names, colours):
     path = tmp_path_factory.mktemp("kept") / "desk.json"

@@ -1,7 +1,7 @@
 """The size of the brush: dragged on the canvas, and by the screen or locked to the canvas."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.canvas.view import Place, View
@@ -55,6 +55,7 @@ def test_escape_gives_the_size_back():
     assert (desk.hand.brush.radius, desk.hand.brush.hardness, desk.hand_sight.ghost) == (20.0, 0.5, None)
 
 
+@settings(deadline=None)
 @given(st.floats(0.5, 300.0), st.lists(st.floats(-9.0, 9.0), max_size=6))
 def test_a_locked_brush_is_as_large_on_the_canvas_however_near_and_comes_back(radius, ways):
     desk = desk_with(radius)
@@ -99,6 +100,7 @@ def test_a_locked_brush_can_be_painted_with_at_the_ends_of_the_world(levels):
     assert desk.hand.brush.radius == (LARGEST if levels > 0 else SMALLEST)
 
 
+@settings(deadline=None)
 @given(st.floats(0.5, 500.0), st.floats(0.0, 1.0))
 def test_the_ghost_falls_off_as_a_dab_does(radius, hardness):
     rings = dab_rings(radius, hardness)

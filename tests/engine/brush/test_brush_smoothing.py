@@ -87,6 +87,7 @@ def test_the_stabiliser_takes_out_a_tremor():
     assert spread[0] > 2 * spread[1] > 3 * spread[2]
 
 
+@settings(deadline=None, max_examples=60)
 @given(SAMPLES, st.sampled_from([0.1, 0.5, 1.0]), st.sampled_from([0.5, 1.0, 8.0]))
 def test_on_a_rope_the_brush_is_never_farther_than_that_and_rests_while_it_is_slack(samples, stabiliser, unit):
     smoother, before = Smoother(stabiliser, way="rope", unit=unit), samples[0, :2]

@@ -7,7 +7,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from engine.files.fault import FileError
@@ -34,6 +34,7 @@ def test_real_palettes_are_read_and_written_again():
         assert read_gpl(gpl_text(found).encode(), path.name) == found
 
 
+@settings(deadline=None)
 @given(NAMES, COLOURS, st.integers(0, 64))
 def test_a_palette_that_is_written_is_read_again(name, colours, columns):
     palette = ColourList(name, tuple(colours), columns)
@@ -143,6 +144,7 @@ def test_a_hostile_kpl_is_refused_in_a_line(data):
     assert "\n" not in str(error.value)
 
 
+@settings(deadline=None)
 @given(st.sampled_from([".aco", ".ase", ".kpl", ".gpl"]), st.data())
 def test_damaged_bytes_give_a_palette_or_are_refused(ending, data):
     held = bytearray({".aco": aco()[1], ".ase": ase(), ".kpl": kpl(), ".gpl": GPL + b"1 2 3\tx\n"}[ending])
@@ -154,6 +156,7 @@ def test_damaged_bytes_give_a_palette_or_are_refused(ending, data):
         assert all(0.0 <= v <= 1.0 for rgb, _ in found.colours for v in rgb)
 
 
+@settings(deadline=None)
 @given(st.sampled_from([".aco", ".ase"]), st.binary(max_size=64))
 @example(".aco", struct.pack(">2H", 1, 65535))
 @example(".ase", b"ASEF" + struct.pack(">2HI", 1, 0, 2**32 - 1))
