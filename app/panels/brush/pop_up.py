@@ -73,8 +73,12 @@ def _favourite(desk: Desk, digit: int, preset: Preset) -> bool:
     w.tooltip(f"{preset.name}  (Ctrl+{digit})\nShift keeps the present size")
     chosen, end = preset.name == desk.hand.preset, ImVec2(corner.x + size[0], corner.y + size[1])
     draw_picture(desk, preset, corner, end, lit=chosen or imgui.is_item_hovered())
+    painter, painted = imgui.get_window_draw_list(), f"preset {preset.name}" in desk.pictures
     at = ImVec2(corner.x + 4 * desk.scale, corner.y + 1 * desk.scale)
-    imgui.get_window_draw_list().add_text(at, theme.packed((0.35,) * 3), str(digit))
+    painter.push_clip_rect(corner, end, True)
+    grey = theme.packed((0.35,) * 3 if painted else (0.72,) * 3)
+    painter.add_text(at, grey, str(digit) if painted else f"{digit}\n{preset.name}")
+    painter.pop_clip_rect()
     return pressed
 
 
