@@ -52,7 +52,7 @@ def desk_on(row):
 
 def test_one_is_told_that_the_brush_hides_and_shows_while_a_mask_is_painted_on():
     desk = desk_on(ROW)
-    assert now_possible(desk) == "Paint with the chosen brush"
+    assert now_possible(desk) == "Paint with the chosen brush (Alt+drag: its size)"
     desk.masks.layer = "Sky"
     assert now_possible(desk) == "Paint on the mask: black hides, white shows again"
     desk.hand.erase()
