@@ -38,7 +38,7 @@ from engine.studio.textures.swatches import painted
 from engine.texture.planes import Planes
 
 _LEVELS = (0, -1, 1, -3, 2)  # that are looked at: the stroke's first
-_WIDEST = 24.0  # px: radius of the brush
+_WIDEST, _SMALL = 24.0, 2.0  # px: radius of the brush
 _PAINTED = Rect(8, 8, 60, 60)
 _MIRRORED = (Copy(1.0, 0.0, 0.0, 0.0, True),)
 _STEP = 14.0  # px from one point of the pen to the next
@@ -105,9 +105,11 @@ def filed() -> None:
         ora, png = Path(folder) / "painting.ora", Path(folder) / "picture.png"
         studio = Studio(lambda result: None, lambda request: None)
         try:
-            studio.do(q.Begin(0, (0, 0), Brush(radius=_WIDEST)))
-            studio.do(q.Points(np.array([[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [90.0, 70.0, 1.0, 0.0, 0.0, 0.1]])))
-            studio.do(q.Finish())
+            for radius in (_WIDEST, _SMALL):  # of what the small one goes over only that is kept for undo
+                studio.do(q.Begin(0, (0, 0), Brush(radius=radius)))
+                studio.do(q.Points(np.array([[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [90.0, 70.0, 1.0, 0.0, 0.0, 0.1]])))
+                studio.do(q.Finish())
+            studio.do(q.Do(c.Undo()))
             for wrap in (None, SourcePart(0, Rect(0, 0, 64, 64))):
                 studio.do(q.Do(c.SetLayer(studio.easel.session.painting.active or "", wrap=wrap)))
                 for gap in (0, 2):

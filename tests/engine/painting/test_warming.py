@@ -12,7 +12,12 @@ from engine.studio.warming import Warming
 
 ROOT = Path(__file__).parents[3]
 # Of files: they are not read or written while the pen waits.
-ELSEWHERE = ("engine.files.png_reader", "engine.archive.tilecode_kernels", "engine.numeric.colour")
+ELSEWHERE = (
+    "engine.files.png_reader",
+    "engine.archive.tilecode_kernels",
+    "engine.numeric.colour",
+    "engine.canvas.rising.span_values",
+)
 PROGRAM = """
 import json, sys, time
 from pathlib import Path
