@@ -78,13 +78,9 @@ def test_how_high_and_how_wet_the_land_is_are_dragged_in_one_step_each(program, 
     app.until_gone("Water")
 
 
-def test_a_layer_is_seen_alone_by_its_eye_and_renamed_by_its_menu(program):
-    app = program()
-    app.settled(60.0)
-    app.keys("1")
-    empty = app.canvas()
-    app.stroke(*((440 + 8 * i, 320 + 5 * i) for i in range(16)))
-    app.canvas_unlike(empty)
+def test_a_layer_is_seen_alone_by_its_eye_and_renamed_by_its_menu(with_stroke):
+    app = with_stroke
+    both = app.canvas()
     app.box("picture of Layer 1")
     app.click("add_layer")
     app.box("Layer 2")
@@ -92,9 +88,10 @@ def test_a_layer_is_seen_alone_by_its_eye_and_renamed_by_its_menu(program):
     app.click("eye")  # the top-most: of the one just added, on which nothing lies
     app.do("keyup", "alt")
     app.box("Show all", "status")
-    assert app.comes_to(empty)
+    app.canvas_unlike(both)
     app.click("Show all", "status")
     app.until_gone("Show all")
+    assert app.comes_to(both)
     app.move_to(app.at("Layer 2"))
     app.do("click", 3)
     app.click("Rename")
