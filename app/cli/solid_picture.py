@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from engine.solids.solid_rendering import Body
 
 _PIXELS = 64 << 20
-_GROWN = 64  # voxels a side of what grows from an example
+_CUBES = "a cube: P.npy, a folder of slices, or a picture of them in a column"
 MOST_SAMPLES = 6
 _Facts = dict[str, int | float | list[int]]
 
@@ -34,7 +34,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     from engine.solids.mesh_files import READERS
 
     known = ", ".join(MATERIALS)
-    parser.add_argument("solid", metavar="SOLID", help=f"{known}; a CUBE.npy; or a picture, from which a cube grows")
+    parser.add_argument("solid", metavar="SOLID", help=f"{known}; {_CUBES}; or a picture, from which one grows")
     parser.add_argument("out", metavar="OUT", help="OUT.png, a picture; or OUT.glb, a mesh in the colours of the solid")
     parser.add_argument(
         "--on",
@@ -159,9 +159,10 @@ def _solid(options: argparse.Namespace) -> Lookup:
         from engine.solids.object_map import ObjectMap
 
         return ObjectMap.of(match_command.read(name, options.out).planes[:3], options.on, options.scale)
-    if name.lower().endswith(".npy"):
-        from engine.solids.cube_files import read_cube
+    from engine.solids.cube_files import is_column, read_cube
 
+    known = name.lower().endswith(".npy") or os.path.isdir(name)
+    if known or (name.lower().endswith(".png") and is_column(name)):
         return Cubed(read_cube(name), seed=options.seed)
     return Cubed(_grown(name, options), seed=options.seed)
 
@@ -184,18 +185,15 @@ def _values(name: str, given: list[str]) -> dict[str, float]:
 
 def _grown(path: str, options: argparse.Namespace) -> np.ndarray:
     """The cube that grows from an example: float32 (z, y, x, 3)."""
-    import numpy as np
+    from engine.solids.cube_growing import growing_cube
 
-    from engine.solids.cube_files import opaque
-    from engine.texture import solid
-    from engine.texture.matching import Shape, matched_colours
-
-    example = match_command.read(path, options.out)
-    wanted = solid.patterns(example.planes, _GROWN, Shape("steerable", 4, 4))
-    start = solid.noise(wanted.oriented.colours.count, _GROWN, options.seed)
-    with match_command.threads() as pool:
-        cubes = match_command.finished("growing", solid.matching(wanted, start, solid.ITERATIONS, pool))
-    return opaque(np.moveaxis(matched_colours(wanted.oriented, cubes), 0, -1))
+    example, cube = match_command.read(path, options.out), None
+    with match_command.threads() as pool, Progress("growing", 100) as bar:
+        for step in growing_cube(example.planes, options.seed, threads=pool):
+            bar.part(step.done)
+            cube = step.cube
+    assert cube is not None
+    return cube
 
 
 def _body(options: argparse.Namespace) -> Body:

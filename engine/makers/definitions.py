@@ -89,7 +89,7 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
 _NAMING = frozenset(
     (
         *("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field"),
-        *("bundled", "mask", "mask_strokes", "region", "params", "material"),
+        *("bundled", "mask", "mask_strokes", "region", "params", "material", "cube"),
     )
 )
 _MISSING = object()
@@ -103,7 +103,7 @@ def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTextu
     maker = kind
     if kind in FIELDS.values():
         maker = "impulse" if "window" in parameters else "spectrum" if "field" in parameters else kind
-        maker = "solid" if "material" in parameters else maker
+        maker = "solid" if "material" in parameters or "cube" in parameters else maker
     elif kind in ("matched", "series"):
         maker = "mix" if "pattern" in parameters else "match"
     given = {key: value for key, value in parameters.items() if key not in ("sha", "mask_sha", "examples")}
@@ -139,7 +139,7 @@ def _paths(value: object) -> Iterator[str]:
 
 
 def _is_path(key: str, value: Any) -> bool:
-    named = key in ("path", "pattern", "start", "mask", "params") or (key == "phase" and "." in str(value))
+    named = key in ("path", "pattern", "start", "mask", "params", "cube") or (key == "phase" and "." in str(value))
     return isinstance(value, str) and named
 
 

@@ -248,13 +248,17 @@ def _example(members: Fields, name: str, place: Pictures, known: Any = None) -> 
 
 
 def _looked_at(planes: np.ndarray) -> Example:
-    """Halved until it is short enough; of a large picture the middle."""
+    planes = part_looked_at(planes)
+    return Example(ImageSource.of("", rgba(planes)).sha[:_SHORT], planes)
+
+
+def part_looked_at(planes: np.ndarray) -> np.ndarray:
+    """Returns a picture (C, h, w) halved until it is short enough; of a large one the middle."""
     while max(planes.shape[1:]) > SHRUNK and min(planes.shape[1:]) > 1:
         even = planes[:, : planes.shape[1] // 2 * 2, : planes.shape[2] // 2 * 2]
         planes = reduce(np.ascontiguousarray(even))
     top, left = (max(0, (n - EXAMPLE_SIDE) // 2) for n in planes.shape[1:])
-    planes = np.ascontiguousarray(planes[:, top : top + EXAMPLE_SIDE, left : left + EXAMPLE_SIDE])
-    return Example(ImageSource.of("", rgba(planes)).sha[:_SHORT], planes)
+    return np.ascontiguousarray(planes[:, top : top + EXAMPLE_SIDE, left : left + EXAMPLE_SIDE])
 
 
 def _size(members: Fields, usual: tuple[int, ...], stages: int) -> tuple[int, int]:

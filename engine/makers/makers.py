@@ -111,8 +111,9 @@ def _known(command: DefineTexture, members: Fields, around: Around) -> ImageSour
 def _the_same(members: Fields, source: ImageSource) -> ImageSource:
     """FileError if a file holds other pixels than it did when the definition was recorded."""
     sha = members.text("sha", None, cap=64)
-    if "path" in members and sha is not None and sha != source.sha:
-        raise FileError(members.text("path", cap=4096), "its pixels are not those that were there when it was recorded")
+    named = "cube" if "cube" in members else "path"
+    if named in members and sha is not None and sha != source.sha:
+        raise FileError(members.text(named, cap=4096), "its pixels are not those that were there when it was recorded")
     return source
 
 

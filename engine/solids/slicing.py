@@ -1,6 +1,6 @@
-"""Flat slices through a material, which tile without a seam.
+"""Flat slices through a solid, which tile without a seam.
 
-A material repeats after one unit along each axis; so does each plane through whole-numbered directions, along any two
+A solid repeats after one unit along each axis; so does each plane through whole-numbered directions, along any two
 of these.  A slice is cut at right angles to `normal`, a direction of small whole numbers, along two others that stand
 on it and on one another, each as long as it takes to repeat.
 """
@@ -12,8 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from engine.solids.material_sliders import MATERIALS, Values
-from engine.solids.materials import COLOURS, Seen
+from engine.solids.solid_lookup import Lookup
 
 STEEPEST = 2  # of a normal's numbers at most
 SLICE_SIDE = 1024  # pixels along a side
@@ -21,12 +20,9 @@ _AXIS = tuple[int, int, int]
 
 
 class Slice(NamedTuple):
-    """Which material, its seed and values; the plane's `normal`; how far along it, `depth`, in units; pixels of a
-    unit."""
+    """Of which solid; the plane's `normal`; how far along it, `depth`, in units; pixels of a unit."""
 
-    material: str
-    seed: int
-    values: Values
+    solid: Lookup
     normal: tuple[int, int, int]
     depth: float
     unit: int
@@ -60,7 +56,6 @@ def sliced(cut: Slice) -> np.ndarray:
     across, down = (np.array(side, np.float64) for side in sides(cut.normal))
     size = float(sum(value * value for value in cut.normal))
     middle = np.array(cut.normal, np.float64) * (cut.depth / size)
-    values = MATERIALS[cut.material].values(cut.values)
     finest = 0.5 / cut.unit
     total = np.zeros((height * width, 3))
     for dy in (0.25, 0.75):
@@ -68,6 +63,6 @@ def sliced(cut: Slice) -> np.ndarray:
             x = ((np.arange(width) + dx) / width)[None, :, None]
             y = ((np.arange(height) + dy) / height)[:, None, None]
             points = (middle + x * across + y * down).reshape(-1, 3)
-            total += COLOURS[cut.material](Seen(points, cut.seed, finest), values)
+            total += cut.solid.colours(points, finest)
     out: np.ndarray = (total * 0.25).T.reshape(3, height, width).astype(np.float32)
     return out

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,6 +14,7 @@ from engine.solids.studio_light import FILL, KEY, Lights, lights_on
 
 _BAND = 32  # rows of the picture at a time
 _EYE = np.array((0.0, -6.2, 2.1))
+AWAY = 6.4  # from the middle of a body that is afloat
 _FAR = 40.0  # half the ground's width
 _GROUND = np.array((0.50, 0.475, 0.45)) ** 2.2
 _BACK = np.array((0.36, 0.35, 0.345)) ** 2.2
@@ -79,10 +80,18 @@ class Camera:
 
 
 class Arrangement:
-    """Bodies on a ground as a camera sees them."""
+    """Bodies on a ground as a camera sees them; or afloat, before the `behind`, a colour as a screen shows it."""
 
-    def __init__(self, bodies: list[Body], target: np.ndarray, reach: float) -> None:
-        self.bodies, self.target, self.reach = bodies, target, reach
+    def __init__(
+        self,
+        bodies: list[Body],
+        target: np.ndarray,
+        reach: float,
+        eye: np.ndarray = _EYE,
+        behind: tuple[float, float, float] | None = None,
+    ) -> None:
+        self.bodies, self.target, self.reach, self.eye = bodies, target, reach, eye
+        self._behind = None if behind is None else _light_of(np.array(behind))
         self._points = [body.points() for body in bodies]
         self._starts = np.cumsum([0, *(len(body.mesh.faces) for body in bodies)])
         before = np.cumsum([0, *(len(points) for points in self._points)])
@@ -93,17 +102,22 @@ class Arrangement:
         self, size: tuple[int, int], samples: int = 3, tell: Callable[[int], None] = lambda done: None
     ) -> np.ndarray:
         """Returns uint8 (h, w, 3), of `samples` squared samples a pixel; `tell` hears how many rows are done."""
+        out = np.empty((size[1], size[0], 3), np.uint8)
+        for top, rows in self.bands(size, samples):
+            out[top : top + len(rows)] = rows
+            tell(top + len(rows))
+        return out
+
+    def bands(self, size: tuple[int, int], samples: int) -> Iterator[tuple[int, np.ndarray]]:
+        """Yields some rows of the picture after others: which is the first of them, and uint8 (rows, w, 3)."""
         width, height = size
-        camera = Camera((width * samples, height * samples), self.target, self.reach)
+        camera = Camera((width * samples, height * samples), self.target, self.reach, self.eye)
         corners = [camera.corners(points) for points in self._points]
-        out = np.empty((height, width, 3), np.uint8)
         for top in range(0, height, _BAND):
             rows = min(_BAND, height - top)
             light = self._band(camera, corners, top * samples, rows * samples)
             light = _shown(light).reshape(rows, samples, width, samples, 3).mean(axis=(1, 3))
-            out[top : top + rows] = np.rint(255.0 * light)
-            tell(top + rows)
-        return out
+            yield top, np.rint(255.0 * light).astype(np.uint8)
 
     def _band(self, camera: Camera, corners: list[np.ndarray], top: int, rows: int) -> np.ndarray:
         """Light (rows * width, 3) of some rows of samples."""
@@ -114,7 +128,7 @@ class Arrangement:
         y, x = np.mgrid[top : top + rows, 0 : camera.width] + 0.5
         rays = camera.rays(x.reshape(-1), y.reshape(-1))
         flat = names.reshape(-1)
-        out = self._ground(camera, rays, flat < 0)
+        out = self._ground(camera, rays, flat < 0) if self._behind is None else np.tile(self._behind, (len(rays), 1))
         for n, (body, places) in enumerate(zip(self.bodies, corners, strict=True)):
             here = np.nonzero((flat >= self._starts[n]) & (flat < self._starts[n + 1]))[0]
             if len(here):
@@ -161,6 +175,12 @@ class Arrangement:
         return out
 
 
+def afloat(body: Body, reach: float, behind: tuple[float, float, float]) -> Arrangement:
+    """Returns the scene of one body that the eye looks straight at, from AWAY; `reach`: of the picture's half height
+    for a unit, at distance 1; `behind`: the colour behind it."""
+    return Arrangement([body], np.zeros(3), reach * AWAY, np.array((0.0, -AWAY, 0.0)), behind)
+
+
 def framed(bodies: list[Body]) -> Arrangement:
     """Returns the scene of bodies, seen so that all of them are in the picture."""
     points = np.concatenate([body.points() for body in bodies])
@@ -197,6 +217,14 @@ def _room(towards: np.ndarray, gloss: float) -> np.ndarray:
         edge = np.clip((wide - np.maximum(u, 1.0 * v)) / soft + 0.5, 0.0, 1.0) * (towards @ lamp > 0.0)
         bright = strength * (1.0 - 0.75 * gloss * (1.0 - gloss)) * edge
         out = out + bright[:, None] * np.array((1.0, 0.96, 0.9))
+    return out
+
+
+def _light_of(shown: np.ndarray) -> np.ndarray:
+    """Light of which a screen shows this: the other way of `_shown`."""
+    y = shown**2.2
+    a, b = 2.51 - 2.43 * y, 0.03 - 0.59 * y
+    out: np.ndarray = (np.sqrt(b * b + 0.56 * a * y) - b) / (2.0 * a) / _EXPOSURE
     return out
 
 
