@@ -1,6 +1,7 @@
 """An object made of a solid, as the card draws it: one texture of three dimensions, one light, one picture.
 
-While it turns it has one sample a pixel and few triangles, at rest all of them and more samples.
+While it turns it has one sample a pixel and few triangles, at rest all of them and more samples, until the engine's
+picture of it is there, which has all the detail of its solid and softer light.
 """
 
 from __future__ import annotations
@@ -9,11 +10,11 @@ import moderngl
 
 from app.canvas.gallery import Gallery
 from app.canvas.shader_files import shader_source
-from app.desk.solids.solid_state import Carved, SolidState, turned_by
+from app.desk.solids.solid_state import SMALLEST_ROOM, AtRest, Carved, SolidState, turned_by
+from app.desk.solids.solid_work import BEHIND, NEARNESS
+from engine.numeric.address import Rect
 
 _SAMPLES = 4
-_BACK = 0.115, 0.12, 0.125
-_REACH = 0.17  # of the picture's half height for a unit: an object fills it at 6.4 units
 
 
 class SolidView:
@@ -33,15 +34,24 @@ class SolidView:
     def show(self, state: SolidState) -> None:
         """Draws the object again, if it is seen and has changed."""
         width, height = state.room
-        if state.carved is None or min(width, height) < 8:
+        if state.carved is None or min(width, height) < SMALLEST_ROOM:
             return
-        told = (state.carved, state.room, state.turn, state.scale, state.turning)
+        rest = state.rest if state.rest is not None and state.rest.of == state.seen else None
+        told = (state.carved, state.room, state.turn, state.scale, state.turning, rest)
         if told == self._drawn:
             return
         self._drawn = told
+        if rest is not None:
+            self._hang(rest)
+            return
         if state.carved is not self._carved:
             self._take(state.carved)
         self._draw(state)
+
+    def _hang(self, rest: AtRest) -> None:
+        """Shows what the engine has drawn, where the card's picture is."""
+        self._frames_of(*rest.of.room)
+        self._gallery.touch("solid", rest.of.room, Rect.at(0, 0, *rest.of.room), rest.pixels)
 
     def _take(self, carved: Carved) -> None:
         """Loads the solid and the object."""
@@ -73,11 +83,11 @@ class SolidView:
         target = plain if state.turning else smooth
         target.use()
         self._ctx.enable_only(moderngl.DEPTH_TEST)
-        target.clear(*_BACK, 1.0)
+        target.clear(*BEHIND, 1.0)
         self._solid.use(0)
         program = self._program
-        program["scale"], program["gloss"] = state.scale, state.carved.gloss
-        lens = 1.0 / _REACH * min(1.0, width / height)
+        program["scale"], program["gloss"] = state.scale, state.carved.solid.gloss
+        lens = 1.0 / NEARNESS * min(1.0, width / height)
         program["lens"] = lens * height / width, -lens  # the picture's first row is the uppermost
         program["turned"] = tuple(turned_by(*state.turn).T.reshape(-1).tolist())
         self._objects[state.turning].render(moderngl.TRIANGLES)

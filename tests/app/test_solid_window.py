@@ -1,12 +1,18 @@
 """The panel of solids in the real window: an object is turned by a drag, and a slice through it is ink."""
 
+import numpy as np
 import pytest
 from screens import changed
+
+from engine.solids.cube_files import write_cube
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 
-def test_a_solid_is_turned_and_its_slice_is_ink(program):
+def test_a_solid_is_turned_and_its_slice_is_ink(program, tmp_path):
+    kept = tmp_path / "data" / "inkfall" / "solids"
+    kept.mkdir(parents=True)
+    write_cube(kept / "rubble.png", np.random.default_rng(0).random((8, 8, 8, 3)).astype(np.float32))
     app = program()
     app.settled()
     app.keys("shift+t")
@@ -17,6 +23,10 @@ def test_a_solid_is_turned_and_its_slice_is_ink(program):
     turned = app.until(lambda screen: changed(screen[place], seen[place]) > 3000)
     app.click("Wood")
     app.until(lambda screen: changed(screen[place], turned[place]) > 3000)
+    wood = app.parked()
+    app.click("cube")
+    app.click("rubble")
+    app.until(lambda screen: changed(screen[place], wood[place]) > 3000)
     mixer = slice(app.box("Ink mixer")[3], app.box("Add texture")[1]), slice(*app.box("Add texture")[::2])
     before = app.parked()
     app.click("Use as ink")

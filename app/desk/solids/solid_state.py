@@ -4,45 +4,72 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from engine.solids.material_sliders import MATERIALS
+if TYPE_CHECKING:
+    from engine.solids.solid_lookup import Lookup
 
 OBJECTS = ("sphere", "cube", "torus", "vase", "teapot", "knot", "bust")
-USUAL_OBJECT = "teapot"
+USUAL_OBJECT, USUAL_MATERIAL = "teapot", "agate"
 FIRST_SIDE, LAST_SIDE = 48, 96  # voxels of the cube that is shown at once, and of the one that follows
+SMALLEST_ROOM = 8  # pixels of a picture that is worth drawing
 _STEEP = 2  # of a slice's normal, in whole numbers
 _MOST_TILT = 100.0
 
-Made = tuple[str, int, tuple[tuple[str, float], ...]]  # a material, its seed and values
+Made = tuple[str, int, tuple[tuple[str, float], ...]]  # a material, or a cube's path; its seed; values of sliders
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Carved:
-    """What there is to show: `cube`: uint8 (z, y, x, 3) of what was `made`; `corners`: float32 (V, 6), places and
-    normals of the object `name`; `faces`: int32 (F, 3); `fewer`: of those that are drawn while it turns."""
+    """What there is to show: `solid`: what was `made`; `cube`: uint8 (z, y, x, 3) of it, the `whole` of it if there are
+    no finer ones; `corners`: float32 (V, 6), places and normals of the object `name`; `faces`: int32 (F, 3); `fewer`:
+    of those that are drawn while it turns."""
 
     made: Made
+    solid: Lookup
     cube: np.ndarray
+    whole: bool
     name: str
     corners: np.ndarray
     faces: np.ndarray
     fewer: np.ndarray
 
-    @property
-    def gloss(self) -> float:
-        """Returns how much the material mirrors."""
-        return MATERIALS[self.made[0]].gloss
+
+class Aspect(NamedTuple):
+    """Which object is seen, in how many pixels, how it is turned, and the scale of the solid."""
+
+    carved: Carved
+    room: tuple[int, int]
+    turn: tuple[float, float]
+    scale: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AtRest:
+    """An object as it was seen while it rested, with all that the solid has of detail: uint8 (h, w, 3)."""
+
+    of: Aspect
+    pixels: np.ndarray
+
+
+@dataclass(slots=True)
+class Growth:
+    """How far a cube is, 0..1: written on the files' thread, looked at by the window."""
+
+    done: float = 0.0
 
 
 @dataclass(slots=True)
 class SolidState:
-    """`name`: of an object, or the path of a mesh; `turn`: degrees about the upright axis, and forwards; `scale`: of
-    the solid; `depth`: of the slice that becomes ink; `room`: pixels of the picture; `turning`: by hand, right now;
-    `busy`: something is being carved; `awaited`: the texture that is to be ink."""
+    """`material`: its name, or the path of a cube; `name`: of an object, or the path of a mesh; `turn`: degrees about
+    the upright axis, and forwards; `scale`: of the solid; `depth`: of the slice that becomes ink; `room`: pixels of the
+    picture; `turning`: by hand, right now; `busy`: something is being carved; `awaited`: the texture that is to be ink;
+    `rest`: what is seen at rest; `resting`: of what that is being made; `cubes`: paths of those that are kept, None
+    while nobody has looked; `growing`: the cube that grows."""
 
-    material: str = "agate"
+    material: str = USUAL_MATERIAL
     name: str = USUAL_OBJECT
     seed: int = 1
     values: dict[str, dict[str, float]] = field(default_factory=dict)
@@ -54,6 +81,10 @@ class SolidState:
     carved: Carved | None = None
     busy: bool = False
     awaited: str = ""
+    rest: AtRest | None = None
+    resting: Aspect | None = None
+    cubes: tuple[str, ...] | None = None
+    growing: Growth | None = None
 
     @property
     def made(self) -> Made:
@@ -75,7 +106,14 @@ class SolidState:
         held = self.carved
         if held is None or (held.made, held.name) != (self.made, self.name):
             return FIRST_SIDE if held is None or held.made != self.made else len(held.cube)
-        return 0 if len(held.cube) >= LAST_SIDE else LAST_SIDE
+        return 0 if held.whole else LAST_SIDE
+
+    @property
+    def seen(self) -> Aspect | None:
+        """Returns what is seen while it rests; None while it is turned, or something finer is carved."""
+        if self.carved is None or self.turning or self.lacks or min(self.room) < SMALLEST_ROOM:
+            return None
+        return Aspect(self.carved, self.room, self.turn, self.scale)
 
     def normal(self) -> tuple[int, int, int]:
         """Returns the direction of small whole numbers, within the object, that looks most towards the eye."""

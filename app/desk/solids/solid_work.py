@@ -1,14 +1,24 @@
-"""Carving what the panel of solids shows, beside the window's thread."""
+"""Carving what the panel of solids shows, and drawing it as it rests, beside the window's thread."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.desk.desk import Desk, FileWork
-from app.desk.solids.solid_state import USUAL_OBJECT, Carved, Made
+from app.desk.solids.solid_state import LAST_SIDE, USUAL_MATERIAL, USUAL_OBJECT, Aspect, AtRest, Carved, Made
+from app.desk.solids.working import for_a_while
+from engine.solids.material_sliders import MATERIALS
 
+if TYPE_CHECKING:
+    from engine.solids.solid_lookup import Lookup
+
+NEARNESS = 0.17  # of the picture's half height for a unit, at distance 1
+BEHIND = 0.115, 0.12, 0.125  # behind the object
+_SAMPLES = 1, 3  # a pixel each way, of the first picture at rest and the last
 MOST_TURNING = 24_000  # triangles that are drawn while it turns
 
 
@@ -27,23 +37,36 @@ class Carve(FileWork):
         from engine.solids.fewer_triangles import fewer_triangles
         from engine.solids.mesh_files import read_mesh
         from engine.solids.objects import OBJECTS, object_named
-        from engine.solids.solid_lookup import Procedural
 
         held = self.before
-        if held is not None and held.made == self.made and len(held.cube) == self.side:
-            cube = held.cube
+        if held is not None and held.made == self.made and (held.whole or len(held.cube) == self.side):
+            solid, cube, whole = held.solid, held.cube, held.whole
         else:
-            material, seed, values = self.made
-            middles = (np.arange(self.side) + 0.5) / self.side
-            z, y, x = np.meshgrid(middles, middles, middles, indexing="ij")
-            places = np.stack([x, y, z], axis=-1).reshape(-1, 3)
-            colours = Procedural(material, seed, dict(values)).colours(places, 1.0 / self.side)
-            cube = np.rint(255.0 * np.clip(colours, 0.0, 1.0)).astype(np.uint8).reshape((self.side,) * 3 + (3,))
+            solid, cube, whole = self._carved()
         if held is not None and held.name == self.name:
-            return Carved(self.made, cube, self.name, held.corners, held.faces, held.fewer)
+            return replace(held, made=self.made, solid=solid, cube=cube, whole=whole)
         mesh = object_named(self.name) if self.name in OBJECTS else read_mesh(self.name)
         corners = np.concatenate([mesh.points, mesh.normals], axis=1).astype(np.float32)
-        return Carved(self.made, cube, self.name, corners, mesh.faces, fewer_triangles(mesh, MOST_TURNING))
+        return Carved(
+            self.made, solid, cube, whole, self.name, corners, mesh.faces, fewer_triangles(mesh, MOST_TURNING)
+        )
+
+    def _carved(self) -> tuple[Lookup, np.ndarray, bool]:
+        """The solid, its voxels, and whether there are no finer ones."""
+        from engine.solids.cube_files import read_cube
+        from engine.solids.solid_lookup import Cubed, Procedural
+
+        material, seed, values = self.made
+        if material not in MATERIALS:
+            voxels = read_cube(material)
+            return Cubed(voxels, seed=seed), np.rint(255.0 * voxels).astype(np.uint8), True
+        solid = Procedural(material, seed, dict(values))
+        middles = (np.arange(self.side) + 0.5) / self.side
+        z, y, x = np.meshgrid(middles, middles, middles, indexing="ij")
+        places = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+        colours = solid.colours(places, 1.0 / self.side)
+        cube = np.rint(255.0 * np.clip(colours, 0.0, 1.0)).astype(np.uint8).reshape((self.side,) * 3 + (3,))
+        return solid, cube, self.side >= LAST_SIDE
 
     def arrive(self, desk: Desk, found: Carved) -> None:
         """Shows it."""
@@ -52,6 +75,54 @@ class Carve(FileWork):
     def fail(self, desk: Desk, fault: str) -> None:
         """Tells why; the object that was there stays."""
         desk.solid.busy = False
+        held = self.before
         if self.name == desk.solid.name:
-            desk.solid.name = USUAL_OBJECT if self.before is None else self.before.name
+            desk.solid.name = USUAL_OBJECT if held is None else held.name
+        if self.made[0] == desk.solid.material and self.made[0] not in MATERIALS:
+            desk.solid.material = USUAL_MATERIAL if held is None else held.made[0]
+            desk.solid.cubes = None  # the file may be gone
+        desk.say(fault, bad=True)
+
+
+def pictures_at_rest(seen: Aspect) -> Iterator[AtRest | None]:
+    """Yields the object in the studio's light with all that its solid has of detail, a rough picture first, then a
+    smooth one; None while one is being made."""
+    from engine.solids.mesh import Mesh
+    from engine.solids.solid_rendering import Body, afloat, turning
+
+    corners = seen.carved.corners.astype(np.float64)
+    mesh = Mesh(corners[:, :3], corners[:, 3:], seen.carved.faces)
+    scene = afloat(Body(mesh, seen.carved.solid, turning(*seen.turn), scale=seen.scale), NEARNESS, BEHIND)
+    yield None
+    for samples in _SAMPLES:
+        bands = []
+        for _, rows in scene.bands(seen.room, samples):
+            bands.append(rows)
+            yield None
+        yield AtRest(seen, np.concatenate(bands))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rest(FileWork):
+    """Draws what rests, a while at a time; it ends as soon as that is turned."""
+
+    of: Aspect
+    steps: Iterator[AtRest | None]
+
+    def carry_out(self) -> tuple[AtRest | None, bool]:
+        """Returns a picture that is done, and whether there are more to come."""
+        return for_a_while(self.steps)
+
+    def arrive(self, desk: Desk, found: tuple[AtRest | None, bool]) -> None:
+        """Shows it and goes on, if that is seen still."""
+        state, (rest, more) = desk.solid, found
+        if state.seen != self.of or desk.strip != "solid":
+            state.resting = None
+            return
+        state.rest = rest or state.rest
+        if more:
+            desk.work(self)
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        """Tells why; the card's picture stays."""
         desk.say(fault, bad=True)

@@ -290,6 +290,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "match picture 1": file_browser.choosing_example(1),
     "example picture": file_browser.choosing_own,
     "solid mesh": file_browser.choosing_mesh,
+    "solid cube": file_browser.choosing_cube,
     "bring from": file_browser.choosing_to_bring,
     "bring in": BringIn,
     "palette from": file_browser.choosing_palette,

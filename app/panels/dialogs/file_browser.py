@@ -23,6 +23,7 @@ from app.desk.outside import bringing, pictured
 from app.desk.presets import stem_of
 from app.desk.previews import FileRow
 from app.desk.sharing.preset_work import BRUSH, SharePreset, bring_preset
+from app.desk.solids.cube_work import CUBES, bring_cube
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
 from engine.studio.filing.film_requests import MakeFilm
@@ -258,6 +259,11 @@ def choosing_mesh(desk: Desk) -> SystemDialog | Browser:
         d.solid.name = str(path.absolute())
 
     return _chooser("Show a solid on a mesh", _folder(desk), _MESHES, False, choose)
+
+
+def choosing_cube(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a picture from which a solid grows, or a file that holds a cube."""
+    return _chooser("A solid like a picture, or a cube", _folder(desk), CUBES, False, bring_cube)
 
 
 def choosing_to_bring(desk: Desk) -> SystemDialog | Browser:

@@ -12,8 +12,9 @@ from app.desk.desk import Desk
 from app.desk.hand import go_on_with_brush
 from app.desk.lab_state import with_texture
 from app.desk.outside import pictured
+from app.desk.solids.cube_work import ListCubes
 from app.desk.solids.solid_state import OBJECTS
-from app.desk.solids.solid_work import Carve
+from app.desk.solids.solid_work import Carve, Rest, pictures_at_rest
 from app.panels.controls import widgets as w
 from app.panels.panel import Panel
 from engine.painting.commands import DefineTexture
@@ -30,12 +31,18 @@ class SolidPanel(Panel):
     """Draws the strip."""
 
     def wants(self, desk: Desk, now: float) -> None:
-        """Has carved what is set and not yet shown."""
+        """Has carved what is set and not yet shown, and drawn what rests."""
         state = desk.solid
-        side = state.lacks
+        side, seen = state.lacks, state.seen
+        if state.cubes is None:
+            state.cubes = ()
+            desk.work(ListCubes())
         if side and not state.busy:
             state.busy = True
             desk.work(Carve(state.made, state.name, side, state.carved))
+        elif seen is not None and state.resting is None and (state.rest is None or state.rest.of != seen):
+            state.resting = seen
+            desk.work(Rest(seen, pictures_at_rest(seen)))
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
@@ -70,8 +77,9 @@ class SolidPanel(Panel):
         shown = desk.pictures.get("solid")
         if shown is not None and state.carved is not None:
             painter.add_image(shown, corner, ImVec2(corner.x + state.room[0], corner.y + state.room[1]))
-        if state.lacks:
-            text = f"{icons.WAIT} carving…"
+        if state.lacks or state.growing is not None:
+            grown = f"{icons.WAIT} growing… {state.growing.done:.0%}" if state.growing is not None else ""
+            text = grown or f"{icons.WAIT} carving…"
             at = ImVec2(corner.x + 10 * desk.scale, end.y - 26 * desk.scale)
             painter.add_text(at, theme.packed(theme.QUIET), text)
 
@@ -80,6 +88,7 @@ class SolidPanel(Panel):
         hints = {name: row.about for name, row in MATERIALS.items()}
         options = [(name, name.capitalize(), hints[name].capitalize()) for name in MATERIALS]
         state.material = w.segments("material", state.material, options) or state.material
+        self._cubes(desk)
         side = imgui.get_frame_height()
         wide = imgui.get_content_region_avail().x - side - 2 * desk.scale
         objects = [(name, name.capitalize()) for name in OBJECTS]
@@ -92,9 +101,10 @@ class SolidPanel(Panel):
         elif chosen:
             state.name = chosen
         imgui.same_line(0, 2 * desk.scale)
-        if w.icon_button("throw", icons.DICE, "The same from another block", size=side):
+        carved = state.material in MATERIALS
+        if w.icon_button("throw", icons.DICE, "The same from another block", enabled=carved, size=side):
             state.seed = (state.seed * 31 + 17) % 99991
-        for name, slider in MATERIALS[state.material].sliders.items():
+        for name, slider in MATERIALS[state.material].sliders.items() if carved else ():
             value = state.values.get(state.material, {}).get(name, slider.usual)
             form = "%.0f" if slider.whole or slider.high >= 20.0 else "%.2f"
             label, hint = name.capitalize(), slider.about[0].upper() + slider.about[1:]
@@ -105,14 +115,33 @@ class SolidPanel(Panel):
         _, state.scale = w.slider("Scale", state.scale, _SCALES, hint, curved=True)
         _, state.depth = w.slider("Slice", state.depth, (0.0, 1.0), "How deep the block is cut for ink")
 
+    def _cubes(self, desk: Desk) -> None:
+        """Chooses among cubes that are kept, or asks for another."""
+        state, wide = desk.solid, imgui.get_content_region_avail().x
+        if state.growing is not None:
+            if w.text_button("Stop growing", "Goes on with the solid that is shown", width=wide):
+                state.growing = None
+            return
+        kept = [(path, PurePath(path).stem[:_LONGEST]) for path in state.cubes or ()]
+        if state.material not in MATERIALS and state.material not in dict(kept):
+            kept.append((state.material, PurePath(state.material).stem[:_LONGEST]))
+        shown = "Like a picture…" if state.material in MATERIALS else state.material
+        hint = "A solid that grows from a picture until every cut through it looks like that, or a cube from a file"
+        chosen = w.choice("cube", shown, [*kept, (_OWN, "From a picture or a cube…")], hint, wide)
+        if chosen == _OWN:
+            desk.asked.show("solid cube")
+        elif chosen:
+            state.material = chosen
+
     def _use(self, desk: Desk) -> None:
         state = desk.solid
         text = f"{icons.WAIT} cutting…" if state.awaited else f"{icons.BRUSH} Use as ink"
         hint = "Cuts the block across the way you look at it: the slice becomes the brush's ink, and tiles"
         if w.accent_button(text, hint, enabled=not state.awaited, width=imgui.get_content_region_avail().x):
             material, seed, values = state.made
-            state.awaited = pictured.free_texture_name(desk, material)
-            given = {"material": material, "seed": seed, "normal": state.normal(), "unit": _UNIT}
+            state.awaited = pictured.free_texture_name(desk, PurePath(material).stem)
+            named = "material" if material in MATERIALS else "cube"
+            given = {named: material, "seed": seed, "normal": state.normal(), "unit": _UNIT}
             given |= {"depth": round(state.depth, 3)} | ({"values": Map(values)} if values else {})
             desk.post(Do(DefineTexture(state.awaited, "solid", Map(given))))
 
