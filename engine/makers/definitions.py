@@ -89,7 +89,7 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
 _NAMING = frozenset(
     (
         *("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field"),
-        *("bundled", "mask", "mask_strokes", "region", "params", "material", "cube"),
+        *("bundled", "mask", "mask_strokes", "region", "params", "material", "cube", "step"),
     )
 )
 _MISSING = object()

@@ -26,6 +26,7 @@ from engine.painting.commands import SEED_LIMIT
 SAMPLE_CAP = 1 << 22  # pixels of a sample that is made
 GIVEN_CAP = 1 << 24  # of one that is given: its transform and its pyramid are held in memory
 _SPREAD_CAP = 4.0
+_STEP_SIZE, _LEAST_STEP, _LARGEST_STEP = (128, 128), 8, 512  # pixels of a step's sample
 _NOTHING: Map[str, Any] = Map()
 _PARTS = {**{name: name for name in spectra.PARTS}, "imag": "imaginary"}
 
@@ -67,12 +68,30 @@ def of_spectrum(members: Fields, place: PictureSource) -> Sample:
 
 
 def of_picture(members: Fields, place: PictureSource) -> Sample:
-    """Returns a picture as it is, or a spectrum's sample, to be scattered (section 5.2)."""
+    """Returns a picture as it is, a step, or a spectrum's sample, to be scattered (section 5.2)."""
+    if "step" in members:
+        return _step(members)
     if "path" not in members and "rect" not in members:
         return of_spectrum(members, place)
     given = place.picture(members)
     _check_size(members, given)
     return Sample(_pictured(flattened(given, place.arithmetic)))
+
+
+def _step(members: Fields) -> Sample:
+    """Dark on the left and bright on the right: scattered, and turned at random, the plane breaks along straight lines
+    (faulting, section 6.2).  `step`: how much of the width the edge between takes."""
+    if "path" in members or "rect" in members:
+        raise members.fault("step", "either a step or a picture")
+    soft = members.number("step", lo=0.0, hi=1.0)
+    width, height = members.integers("size", 2, _STEP_SIZE, limit=_LARGEST_STEP)
+    if min(width, height) < _LEAST_STEP:
+        raise members.fault("size", f"[width, height], each {_LEAST_STEP} to {_LARGEST_STEP}")
+    across = np.arange(1, 2 * width, 2, dtype=np.float32) / np.float32(width) - np.float32(1.0)  # -1..1
+    edge = max(np.float32(soft), np.float32(2.0 / width))
+    t = np.clip(np.float32(0.5) + across / (np.float32(2.0) * edge), 0.0, 1.0)
+    smooth = t * t * (np.float32(3.0) - np.float32(2.0) * t)
+    return Sample(_pictured(np.broadcast_to(smooth, (1, height, width))))
 
 
 def of_photograph(members: Fields, place: PictureSource) -> Sample:
