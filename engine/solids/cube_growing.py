@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from engine.numeric.pyramid import reduce
 from engine.solids.cube_files import opaque
 from engine.texture import solid
 from engine.texture.matching import Shape, matched_colours
@@ -20,6 +21,15 @@ class Grown(NamedTuple):
 
     done: float
     cube: np.ndarray | None = None
+
+
+def as_fine_as_voxels(picture: np.ndarray, side: int = GROWN_SIDE) -> np.ndarray:
+    """Returns a picture (C, h, w) halved while it is at least four times as large as a cube: so that a cube has several
+    of what the picture has many of, not a part of one."""
+    while min(picture.shape[1:]) >= 4 * side:
+        even = picture[:, : picture.shape[1] // 2 * 2, : picture.shape[2] // 2 * 2]
+        picture = reduce(np.ascontiguousarray(even))
+    return picture
 
 
 def growing_cube(

@@ -87,7 +87,7 @@ def _steps(path: Path, growth: Growth) -> Iterator[Path | None]:
     from engine.makers.lewis import flattened
     from engine.painting.capture import read_picture
     from engine.solids.cube_files import is_column, read_cube, write_cube
-    from engine.solids.cube_growing import growing_cube
+    from engine.solids.cube_growing import as_fine_as_voxels, growing_cube
 
     cube = None
     if path.suffix.lower() == ".npy" or (path.name.startswith(_SLICE) and path.suffix.lower() == _ENDING):
@@ -95,7 +95,7 @@ def _steps(path: Path, growth: Growth) -> Iterator[Path | None]:
     elif is_column(str(path)):
         cube = read_cube(str(path))
     else:
-        example = part_looked_at(flattened(read_picture(str(path), None)))
+        example = part_looked_at(as_fine_as_voxels(flattened(read_picture(str(path), None))))
         yield None
         for step in growing_cube(example, 0):
             growth.done, cube = step

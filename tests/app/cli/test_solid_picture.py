@@ -58,6 +58,23 @@ def test_a_cube_on_a_mesh(tmp_path):
     assert found[27, 24, 0] > 2 * found[27, 24, 2]
 
 
+def test_a_cube_is_the_same_from_an_array_slices_and_their_picture(tmp_path):
+    voxels = np.random.default_rng(4).integers(0, 256, (8, 8, 8, 3)).astype(np.uint8)
+    np.save(tmp_path / "c.npy", voxels)
+    Image.fromarray(voxels.reshape(64, 8, 3)).save(tmp_path / "c.png")
+    (tmp_path / "c").mkdir()
+    for z, slice_ in enumerate(voxels):
+        Image.fromarray(slice_).save(tmp_path / "c" / f"slice-{z:04}.png")
+    (tmp_path / "m.obj").write_text(BOX)
+    seen = []
+    for name in ("c.npy", "c.png", "c"):
+        out = tmp_path / f"of-{name}.png"
+        assert main(["solid", str(tmp_path / name), str(out), "--on", str(tmp_path / "m.obj"), *SMALL]) == 0
+        seen.append(pixels(out))
+    assert np.array_equal(seen[0], seen[1])
+    assert np.array_equal(seen[0], seen[2])
+
+
 def test_a_mesh_in_the_colours_of_the_solid(tmp_path, capsys):
     """Read back: turned, closed, upright, and at each corner the solid's colour as linear light."""
     (tmp_path / "m.obj").write_text(BOX)

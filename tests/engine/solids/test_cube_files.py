@@ -6,7 +6,7 @@ from PIL import Image
 
 from engine.files.fault import FileError
 from engine.solids.cube_files import is_column, read_cube, write_cube
-from engine.solids.cube_growing import growing_cube
+from engine.solids.cube_growing import as_fine_as_voxels, growing_cube
 
 VOXELS = np.random.default_rng(1).integers(0, 256, (8, 8, 8, 3)).astype(np.uint8)
 COLOURS = VOXELS.astype(np.float32) / np.float32(255.0)
@@ -49,3 +49,8 @@ def test_a_cube_grows_step_by_step_and_has_the_example_s_colours():
     cube = steps[-1].cube
     assert cube.shape == (8, 8, 8, 3)
     assert cube.mean(axis=(0, 1, 2)) == pytest.approx(example.mean(axis=(1, 2)), abs=0.05)
+
+
+def test_a_large_picture_is_made_as_small_as_a_cube_can_show():
+    for size, small in (((3, 40, 33), (3, 20, 16)), ((1, 300, 64), (1, 75, 16)), ((3, 31, 90), (3, 31, 90))):
+        assert as_fine_as_voxels(np.full(size, 0.25, np.float32), 8).shape == small
