@@ -11,6 +11,7 @@ from app.desk.solids import cube_work
 from app.desk.solids.cube_work import ListCubes, bring_cube
 from app.desk.solids.solid_state import OBJECTS, SolidState, turned_by
 from app.desk.solids.solid_work import BEHIND, Carve, Rest, pictures_at_rest
+from app.panels.solids.solid_panel import SolidPanel
 from engine.files.fault import FileError
 from engine.solids import objects
 
@@ -119,6 +120,22 @@ def test_a_cube_is_brought_kept_and_shown(tmp_path, monkeypatch):
     desk.solid.carved = Carve(desk.solid.made, desk.solid.name, 48, None).carry_out()
     assert desk.solid.carved.cube.shape == (9, 9, 9, 3)
     assert desk.solid.lacks == 0
+
+
+def test_the_panel_has_drawn_what_rests_each_time_that_it_was_turned(tmp_path, monkeypatch):
+    monkeypatch.setattr(cube_work, "own_cubes", lambda: tmp_path / "kept")
+    np.save(tmp_path / "c.npy", np.random.default_rng(0).random((8, 8, 8, 3)))
+    state = SolidState(material=str(tmp_path / "c.npy"), name=_pyramid(tmp_path), room=(24, 16))
+    desk, panel = _Desk(state), SolidPanel()
+    for _ in range(3):
+        for _ in range(2):  # carved, then drawn
+            panel.wants(desk, 0.0)
+        assert state.rest is not None
+        assert state.rest.of == state.seen
+        state.drag(5.0, 0.0)
+    state.turning = True
+    panel.wants(desk, 0.0)
+    assert state.resting is None
 
 
 def test_growing_is_stopped_and_leaves_nothing(tmp_path, monkeypatch):

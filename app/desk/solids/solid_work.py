@@ -79,7 +79,8 @@ class Carve(FileWork):
         if self.name == desk.solid.name:
             desk.solid.name = USUAL_OBJECT if held is None else held.name
         if self.made[0] == desk.solid.material and self.made[0] not in MATERIALS:
-            desk.solid.material = USUAL_MATERIAL if held is None else held.made[0]
+            before = USUAL_MATERIAL if held is None else held.made[0]
+            desk.solid.material = USUAL_MATERIAL if before == self.made[0] else before
             desk.solid.cubes = None  # the file may be gone
         desk.say(fault, bad=True)
 
@@ -116,12 +117,13 @@ class Rest(FileWork):
     def arrive(self, desk: Desk, found: tuple[AtRest | None, bool]) -> None:
         """Shows it and goes on, if that is seen still."""
         state, (rest, more) = desk.solid, found
-        if state.seen != self.of or desk.strip != "solid":
-            state.resting = None
-            return
-        state.rest = rest or state.rest
-        if more:
+        wanted = state.seen == self.of and desk.strip == "solid"
+        if wanted and rest is not None:
+            state.rest = rest
+        if wanted and more:
             desk.work(self)
+        else:
+            state.resting = None
 
     def fail(self, desk: Desk, fault: str) -> None:
         """Tells why; the card's picture stays."""
