@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
-from typing import Protocol, cast
+from typing import cast
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through, set_in
 from engine.canvas.placing.unpainted import Unpainted
+from engine.canvas.reading import Read
 from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric import blend
 from engine.numeric.address import TILE, Rect
@@ -34,12 +35,6 @@ from engine.numeric.atop import atop
 
 BLOCK = TILE
 AT_ONCE = 8 * BLOCK * BLOCK  # pixels of a rectangle up to which it is one block
-
-
-class Read(Protocol):
-    """The pixels of a layer: float32 (4, h, w), premultiplied, not necessarily clamped; None where it is empty."""
-
-    def __call__(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None: ...
 
 
 def blocks(root: Group | Planned, level: int, rect: Rect, read: Read) -> Iterator[tuple[Rect, np.ndarray | None]]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Mapping
+from typing import Protocol
 
 import numpy as np
 
@@ -15,6 +17,12 @@ from engine.texture.planes import COLOURS, Planes
 
 _FULL = 1.34  # times as large a rectangle may be as what is worked out of it
 _WORTH = 48 * 48  # pixels of a rectangle from which on whole tiles are worked out for it
+
+
+class Read(Protocol):
+    """The pixels of a layer: float32 (4, h, w), premultiplied, not necessarily clamped; None where it is empty."""
+
+    def __call__(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None: ...
 
 
 def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None = None) -> np.ndarray | None:
@@ -43,14 +51,32 @@ def kept_planes(layer: Layer, level: int, rect: Rect, cache: TileCache) -> np.nd
         for key in block.tiles(level):
             if key in found:
                 found[key] = True, None if whole is None else whole.cut(*key.rect.slices(block))
+    return covered(_gathered(found, level, rect), layer.growth, level, rect)
+
+
+def _gathered(tiles: Mapping[TileKey, tuple[bool, Planes | None]], level: int, rect: Rect) -> np.ndarray | None:
+    """Returns colour and alpha of a rectangle of a level, from all tiles that it meets; None where nothing lies."""
     out: np.ndarray | None = None
-    made = np.empty if all(value is not None for _, value in found.values()) else np.zeros
-    for key, (_, value) in found.items():
-        if value is not None:
-            out = made((COLOURS, rect.height, rect.width), np.float32) if out is None else out
-            part = key.rect.intersect(rect)
-            out[:, *part.slices(rect)] = value.data[:COLOURS, *part.slices(key.rect)]
-    return covered(out, layer.growth, level, rect)
+    columns = _spans(rect.x0, rect.x1)
+    for y, rows, rows_of_tile in _spans(rect.y0, rect.y1):
+        for x, across, across_tile in columns:
+            value = tiles[TileKey(level, x, y)][1]
+            if value is None:
+                continue
+            if out is None:
+                made = np.zeros if any(planes is None for _, planes in tiles.values()) else np.empty
+                out = made((COLOURS, rect.height, rect.width), np.float32)
+            out[:, rows, across] = value.data[:COLOURS, rows_of_tile, across_tile]
+    return out
+
+
+def _spans(first: int, last: int) -> list[tuple[int, slice, slice]]:
+    """Returns the tiles along a side of a rectangle: the place, where in the rectangle, and which part of the tile."""
+    out = []
+    for place in range(first // TILE, (last - 1) // TILE + 1):
+        begin, end = max(first, place * TILE), min(last, (place + 1) * TILE)
+        out.append((place, slice(begin - first, end - first), slice(begin - place * TILE, end - place * TILE)))
+    return out
 
 
 def _blocks(missing: list[TileKey]) -> list[Rect]:

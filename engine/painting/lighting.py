@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.canvas.composite import Read, composite
+from engine.canvas.composite import composite
 from engine.canvas.heaps.seen_heaps import thickness
 from engine.canvas.layers import Group
 from engine.canvas.placing.composite_steps import Planned
+from engine.canvas.reading import Read
 from engine.light.light import BY_ALPHA, RIM, Light, height_of_thickness
 from engine.light.lit_relief import lit, luminance
 from engine.numeric.address import Rect

@@ -12,10 +12,10 @@ import numpy as np
 
 from engine.canvas import growth, layers
 from engine.canvas.attenuate import fold
-from engine.canvas.composite import Read, composite
+from engine.canvas.composite import composite
 from engine.canvas.layers import Group, Layer
 from engine.canvas.placing.composite_steps import Planned
-from engine.canvas.reading import covered, kept_planes, layer_planes
+from engine.canvas.reading import Read, covered, kept_planes, layer_planes
 from engine.canvas.selecting.mask_sheet import MaskSheet
 from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled

@@ -14,8 +14,8 @@ import numpy as np
 
 from engine.archive.ladder.rungs import Block, Ladder
 from engine.canvas import layers
-from engine.canvas.composite import Read
 from engine.canvas.layers import Group
+from engine.canvas.reading import Read
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting.lighting import Lighting, needed, pictured

@@ -6,9 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from engine.canvas.composite import Read, composite
+from engine.canvas.composite import composite
 from engine.canvas.heaps.seen_heaps import HeapsOf, thickness
 from engine.canvas.layers import Group, alone, find, has
+from engine.canvas.reading import Read
 from engine.checks.owned import Owned
 from engine.light.light import BY_ALPHA, BY_IMPASTO, BY_PICTURE, height_of_thickness
 from engine.light.lit_relief import luminance

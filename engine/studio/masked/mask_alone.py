@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from engine.canvas.composite import Read
 from engine.canvas.layers import Group, walk
 from engine.canvas.placing.through import UNPLACED
+from engine.canvas.reading import Read
 from engine.canvas.selecting.layer_mask import Mask
 from engine.canvas.selecting.mask_sheet import mask_of
 from engine.checks.owned import Owned
