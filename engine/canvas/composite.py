@@ -207,7 +207,8 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
     own, below, above = plan[at], plan[:at], plan[at + 1 :]
 
     def drawn(plan: tuple[CompositeStep, ...], turn: int, shown: Rect) -> np.ndarray | None:
-        return _drawn(_gather(plan, level, shown, read, turns[turn].unclipped), shown, False)
+        reading = source.sources.sparing(read) if plan is above else read  # most of a turn shows through
+        return _drawn(_gather(plan, level, shown, reading, turns[turn].unclipped), shown, False)
 
     def both(turn: int, shown: Rect, inner: np.ndarray | None) -> np.ndarray | None:
         seen = turns[turn].unclipped

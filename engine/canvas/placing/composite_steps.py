@@ -20,6 +20,8 @@ from engine.canvas.placing.rounds import by_ids, composed, rounds
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.shared.extents import Shared
 from engine.canvas.placing.through import UNPLACED, Seen, seen_first
+from engine.canvas.placing.unpainted import Unpainted
+from engine.canvas.reading import Read
 from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric import blend
 
@@ -64,6 +66,7 @@ class Sources:
 
     def __init__(self, root: Group, portions: Portions | None = None, painted: int | None = None) -> None:
         self.portions, self._painted = portions, painted
+        self.sparing: Callable[[Read], Read] = functools.partial(Unpainted().reading, painted=painted)
         self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
         self._steps: dict[Shown, tuple[CompositeStep, ...]] = {}
         self._turns: dict[Shown, bool] = {}
