@@ -48,7 +48,7 @@ def test_damaged_files_are_told_kept_and_opened_as_far_as_they_are_whole(program
     app.wait_for("painting 1 shown")
     app.click("2 notes", "status")  # of the preferences, and of the others
     app.box("torn.json: Unterminated string starting at: line 1 column 28 (char 27)")
-    assert ("", "2 files of brushes and examples are damaged; they are kept as they are") in app.boxes()
+    assert ("", "2 files of brushes, examples and the desk are damaged; they are kept as they are") in app.boxes()
     app.keys("Escape")
     shown = app.canvas()
     app.keys("ctrl+o")

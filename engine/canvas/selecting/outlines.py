@@ -114,6 +114,8 @@ def _go_round(points: np.ndarray, left: float, top: float, area: np.ndarray) -> 
         if y0 == y1 or y1 <= 0.0 or y0 >= height:
             continue
         slope = (x1 - x0) / (y1 - y0)
+        if not math.isfinite(slope):  # it goes down by next to nothing: what it leaves is none of a step
+            continue
         low, high = min(x0, x1), max(x0, x1)
         for row in range(max(0, int(y0)), min(height, math.ceil(y1))):
             upper, lower = max(y0, float(row)), min(y1, row + 1.0)

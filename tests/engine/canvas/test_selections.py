@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from engine.canvas.selecting import outlines
@@ -38,6 +38,7 @@ def made(draw_level, rect, round_off):
 
 @settings(max_examples=40, deadline=None)
 @given(corners)
+@example([(0.0, 0.0), (0.0, 0.0), (1.0, 2.225073858507203e-309)])
 def test_an_outline_covers_the_area_that_it_goes_round(points):
     """Of a triangle and of any shape that goes round once; a shape that crosses itself covers no more than that."""
     table = np.array(points)

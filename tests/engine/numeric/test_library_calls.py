@@ -57,7 +57,7 @@ ALLOWED = {
     "strokes.example_region": LABELS,
     "canvas.placing.loops": REFUSED,
     "texture.example.scanline": REFERENCE,
-    "brush.smoothing": HAND,
+    "brush.steadying": HAND,
     "numeric.spectra": SHOWN,
     "numeric.analysis": SHOWN,
     "numeric.prediction": SHOWN,
