@@ -15,6 +15,11 @@ from app.desk.presets import Preset
 BRUSH = ".inkbrush"  # the ending of a shared brush
 
 
+def _without(stay: tuple[str, ...]) -> str:
+    """Returns what is told of textures that a brush in a file cannot have."""
+    return f", without {' and '.join(stay)}, which only this painting has" if stay else ""
+
+
 @dataclass(frozen=True, slots=True)
 class ChangePreset(FileWork):
     """Keeps one of the artist's own as `after`, which may have another name; `stay`: the textures that only this
@@ -39,8 +44,7 @@ class ChangePreset(FileWork):
         change_kept(desk, replace(desk.kept, favourites=tuple(names)))
         if desk.hand.preset == self.before.name:
             desk.hand.take(desk.hand.brush, found.name)
-        without = f", without {' and '.join(self.stay)}, which only this painting has" if self.stay else ""
-        desk.say(f"Kept the brush “{found.name}”{without}", bad=bool(self.stay))
+        desk.say(f"Kept the brush “{found.name}”{_without(self.stay)}", bad=bool(self.stay))
 
     def fail(self, desk: Desk, fault: str) -> None:
         """Tells why it stays as it was."""
@@ -62,8 +66,7 @@ class AddPreset(FileWork):
         """Lists it with the others."""
         desk.learn(presets=(*(one for one in desk.known.presets if one.name != found.name), found))
         desk.hand.take(desk.hand.brush, found.name)
-        without = f", without {' and '.join(self.stay)}, which only this painting has" if self.stay else ""
-        desk.say(f"Saved the brush “{found.name}”{without}", bad=bool(self.stay))
+        desk.say(f"Saved the brush “{found.name}”{_without(self.stay)}", bad=bool(self.stay))
 
     def fail(self, desk: Desk, fault: str) -> None:
         """Tells why there is none."""

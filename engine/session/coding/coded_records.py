@@ -160,8 +160,9 @@ class Ways:
     def encode(self, record: Record, other: Record | None) -> int:
         """Makes a record smaller; `other`: the one that took its place, None for none.  Returns the bytes that it takes
         less."""
-        coded = isinstance(record.held, CodedData)
-        saved = encode(record, other if other is None or coded or self.lead(record, other) else None)
+        if other is not None and not isinstance(record.held, CodedData) and not self.lead(record, other):
+            other = None
+        saved = encode(record, other)
         self._behind.pop(record, None)
         return saved
 

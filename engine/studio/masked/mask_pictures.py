@@ -20,8 +20,7 @@ from engine.studio import results
 from engine.studio.easel import Easel
 from engine.studio.masked.greys import greys
 from engine.studio.masked.mask_requests import picture_name
-
-SIDE = 64  # pixels at most
+from engine.studio.stack.small_frame import small_frame
 
 
 class MaskPictures(Owned):
@@ -51,10 +50,7 @@ class MaskPictures(Owned):
         mask = mask_of(node)
         assert mask is not None
         self._told[node.name] = mask, frame
-        level = 0
-        while max(frame.zoomed(level).width, frame.zoomed(level).height) > SIDE:
-            level -= 1
-        area = frame.zoomed(level)
+        level, area = small_frame(frame)
         read = partial(layer_planes, cache=self._easel.session.cache)
         shown = greys(Mask.told(node).planes(read, level, area, UNPLACED), area)
         pixels = np.full((area.height, area.width, 4), 255, np.uint8)

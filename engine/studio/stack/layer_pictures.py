@@ -13,15 +13,14 @@ from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.placing.placement import Placement
 from engine.canvas.reading import layer_planes
 from engine.checks.owned import Owned
-from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting.value import Painting
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.easel import Easel
+from engine.studio.stack.small_frame import small_frame
 from engine.studio.stack.stack_requests import layer_picture
 
-SIDE = 64  # pixels at most
 _GREY = 120  # under what is not painted
 _MANY = 16  # layers of a group: of more no picture is made, which would take too long at once
 _Seen = tuple[object, ...]  # what a picture hangs on
@@ -54,7 +53,7 @@ class LayerPictures(Owned):
         """Makes the next, the top-most first."""
         node, painting = self._open.pop(), self._easel.session.painting
         self._told[node.name] = _hangs_on(node, painting)
-        level, area = _area(painting.frame)
+        level, area = small_frame(painting.frame)
         plain = replace(node, mask=None)
         read = partial(layer_planes, cache=self._easel.session.cache)
         pixels = composite(layers.alone(plain, painting.root), level, area, read)
@@ -67,14 +66,6 @@ def _on_grey(pixels: np.ndarray) -> np.ndarray:
     out[..., :3] += ((255 - pixels[..., 3:].astype(np.uint16)) * _GREY // 255).astype(np.uint8)
     out[..., 3] = 255
     return out
-
-
-def _area(frame: Rect) -> tuple[int, Rect]:
-    """Returns the finest level at which a frame is small enough, and its pixels there."""
-    level = 0
-    while max(frame.zoomed(level).width, frame.zoomed(level).height) > SIDE:
-        level -= 1
-    return level, frame.zoomed(level)
 
 
 def _is_shown(node: Node) -> bool:

@@ -4,7 +4,6 @@ import contextlib
 import io
 import struct
 import zipfile
-from pathlib import Path
 
 import pytest
 from hypothesis import example, given, settings
@@ -15,7 +14,6 @@ from engine.files.swatches.colour_list import ColourList, NamedColour, plain_nam
 from engine.files.swatches.gpl import gpl_text, read_gpl
 from engine.files.swatches.palette_files import READERS, read_palette
 
-CORPUS = Path(__file__).resolve().parents[4] / "shared" / "corpus" / "gpl"
 NAMES = st.text(max_size=12).map(plain_name)
 COLOURS = st.lists(st.builds(NamedColour, st.tuples(*[st.integers(0, 255).map(lambda v: v / 255)] * 3), NAMES))
 
@@ -24,14 +22,23 @@ def rgb8(palette):
     return [tuple(round(255 * v) for v in rgb) for rgb, _ in palette.colours]
 
 
-@pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus is not here")
-def test_real_palettes_are_read_and_written_again():
-    files = sorted(CORPUS.rglob("*.gpl"))
-    assert len(files) > 20
-    for path in files:
-        found = read_palette(path)
-        assert found.colours
-        assert read_gpl(gpl_text(found).encode(), path.name) == found
+DIALECTS = {  # as GIMP, Inkscape, MyPaint and older programs write them
+    "named": b"GIMP Palette\nName: Sea\nColumns: 4\n# By the sea\n#\n  0  64 128\tDeep water\n255 255 255\tFoam\n",
+    "without columns": b"GIMP Palette\nName: Sea\n#\n  0  64 128\n255 255 255\tUntitled\n",
+    "a comment between": b"GIMP Palette\nName: Sea (old)\nColumns: 16\n  0  64 128\tgrey0\n# more\n255 255 255 \tw\n",
+    "spaces": b"GIMP Palette\nName: Sea\n#\n  0 64 128      Deep   water\n255 255 255\n\n",
+    "no name": b"GIMP Palette\n#\n0 64 128\n255 255 255\n",
+    "other line ends": b"GIMP Palette\r\nName: Sea\r\nColumns: 3\r\n0 64 128 Deep\r\n255 255 255 Foam\r\n",
+}
+
+
+@pytest.mark.parametrize("data", DIALECTS.values(), ids=DIALECTS)
+def test_palettes_of_other_programs_are_read_and_written_again(data, tmp_path):
+    path = tmp_path / "sea.gpl"
+    path.write_bytes(data)
+    found = read_palette(path)
+    assert rgb8(found) == [(0, 64, 128), (255, 255, 255)]
+    assert read_gpl(gpl_text(found).encode(), path.name) == found
 
 
 @settings(deadline=None)

@@ -9,7 +9,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio.results import Patch, Picture
-from engine.studio.stack.layer_pictures import SIDE
+from engine.studio.stack.small_frame import SIDE
 from engine.studio.stack.stack_requests import ShowOnly, layer_picture
 from engine.studio.studio import Studio
 
