@@ -68,6 +68,10 @@ def run(options: argparse.Namespace) -> int:
         from app.cli import example_command
 
         return example_command.run(options.words)
+    if name == "doctor":
+        from app.cli.texture_doctor import advice
+
+        return advice.run(options.words)
     if name in MATCHED:
         from app.cli import match_command, solid_command
 
@@ -87,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _known() -> str:
-    return ", ".join((*MAKERS, *MATCHED, "example"))
+    return ", ".join((*MAKERS, *MATCHED, "example", "doctor"))
 
 
 def _parser(name: str) -> Parser:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from immutables import Map
@@ -20,7 +20,7 @@ from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.strict_json import Fields
 from engine.makers import with_structure
-from engine.makers.lewis import SAMPLE_CAP, Sample, flattened
+from engine.makers.lewis import SAMPLE_CAP, Pictures, Sample, flattened
 from engine.numeric.colour_axes import axes_of
 from engine.numeric.grid import snapped
 from engine.numeric.pyramid import reduce
@@ -92,19 +92,6 @@ class Made:
 
     done: float
     colours: np.ndarray | None = None
-
-
-class Pictures(Protocol):
-    """Where examples come from, such as `capture.PictureSource`."""
-
-    @property
-    def arithmetic(self) -> int:
-        """Gives the arithmetic in which what is made of them is worked out."""
-        ...
-
-    def picture(self, members: Fields) -> np.ndarray:
-        """Reads the picture that members name: float32 (C, h, w)."""
-        ...
 
 
 def read(maker: str, members: Fields, place: Pictures) -> Plan:

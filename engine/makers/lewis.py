@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from immutables import Map
@@ -38,6 +38,19 @@ class Sample:
 
     rgba: np.ndarray
     found: Map[str, Any] = _NOTHING
+
+
+class Pictures(Protocol):
+    """Where examples come from, such as `capture.PictureSource`."""
+
+    @property
+    def arithmetic(self) -> int:
+        """Gives the arithmetic in which what is made of them is worked out."""
+        ...
+
+    def picture(self, members: Fields) -> np.ndarray:
+        """Reads the picture that members name: float32 (C, h, w)."""
+        ...
 
 
 Maker = Callable[[Fields, PictureSource], Sample]
@@ -94,7 +107,7 @@ def _step(members: Fields) -> Sample:
     return Sample(_pictured(np.broadcast_to(smooth, (1, height, width))))
 
 
-def of_photograph(members: Fields, place: PictureSource) -> Sample:
+def of_photograph(members: Fields, place: Pictures) -> Sample:
     """Windowed pieces of a photograph, averaged as spectra, become an impulse response (section 5.3).
 
     A coloured one keeps its mean colour, and its contrast as `spread`.

@@ -274,3 +274,25 @@ def test_no_folder_to_write_to_is_a_failure(tmp_path, capsys):
     path = picture(tmp_path)
     assert main(["texture", "sparse", str(path), "--out", str(tmp_path / "none" / "o.png")]) == 1
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_the_doctor_tells_what_suits_a_picture(tmp_path, capsys):
+    example, sheet = picture(tmp_path, "RGB", (24, 20)), tmp_path / "sheet.png"
+    assert main(["texture", "doctor", str(example), "--png", str(sheet), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["looked_at"] == [20, 24]
+    assert told["kinds"] == ["stochastic"]
+    assert told["advice"] in told["trials"]
+    assert told["trials"]["grown"]["copied"] > told["trials"]["histograms"]["copied"]
+    assert np.asarray(Image.open(sheet)).shape[2] == 3
+    assert main(["texture", "doctor", str(example), "--flat"]) == 0
+    assert "advice: " in capsys.readouterr().out
+
+
+def test_the_doctor_says_what_is_no_picture(tmp_path, capsys):
+    clear = tmp_path / "clear.png"
+    Image.fromarray(np.zeros((20, 20, 4), np.uint8)).save(clear)
+    assert main(["texture", "doctor", str(clear)]) == 2
+    assert capsys.readouterr().err == f"inkfall: {clear}: found nothing but transparency, expected a picture\n"
+    assert main(["texture", "doctor", str(picture(tmp_path)), "--png", str(tmp_path / "in.png")]) == 2
+    assert "the example itself" in capsys.readouterr().err

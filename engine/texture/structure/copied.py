@@ -30,11 +30,27 @@ def copied_share(example: np.ndarray, texture: np.ndarray) -> float:
 
 def counted_copies(example: np.ndarray, texture: np.ndarray) -> Iterator[float | None]:
     """Yields None after each piece of work, and last what `copied_share` returns."""
+    best = np.zeros(0, np.float32)
+    for found in nearest_patches(example, texture):
+        best = best if found is None else found
+        yield None
+    yield copied_part(example, best)
+
+
+def copied_part(example: np.ndarray, best: np.ndarray) -> float:
+    """Tells which part, 0..1, of patches are an example's, by how far each is from the nearest."""
+    spread = float(_grey(example).std())
+    return float((best < np.float32((_SAME * spread) ** 2)).mean()) if best.size else 0.0
+
+
+def nearest_patches(example: np.ndarray, texture: np.ndarray) -> Iterator[np.ndarray | None]:
+    """Yields None after each piece of work, and last how far, squared and for a pixel, each patch of a sample of those
+    of a texture (C, h, w) is from the nearest of an example's (C', h, w), in grey: float32 (n,), none where either is
+    smaller than a patch or the example is of one colour."""
     one, other = _grey(example), _grey(texture)
     side = SIDE_OF_COPIES
-    spread = float(one.std())
-    if min(*one.shape, *other.shape) < side or spread < 1e-6:
-        yield 0.0
+    if min(*one.shape, *other.shape) < side or float(one.std()) < 1e-6:
+        yield np.zeros(0, np.float32)
         return
     even = np.full((side, side), 1.0 / side**2, np.float32)
     places = gathered(other[..., None], side, False, even)
@@ -50,7 +66,7 @@ def counted_copies(example: np.ndarray, texture: np.ndarray) -> Iterator[float |
         own = combinations(directions, patches)
         _look(combinations(factors, own), own, patches, places, best)
         yield None
-    yield float((best < np.float32((_SAME * spread) ** 2)).mean())
+    yield best
 
 
 def _grey(picture: np.ndarray) -> np.ndarray:

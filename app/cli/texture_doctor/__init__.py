@@ -1,0 +1,1 @@
+"""`inkfall texture doctor`: which maker suits an example, in words and as a sheet."""
