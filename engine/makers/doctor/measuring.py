@@ -22,6 +22,7 @@ from engine.texture.structure.statistics import bands_measured
 _WEIGHTS = np.array([0.2126, 0.7152, 0.0722], np.float32)
 _LOOKED_AT = 256  # pixels along the sides of what is looked at
 _SCALES = 3  # whose bands are compared with the next one's
+_CHANCE = 2.0  # over the shorter side: by how much small pictures seem to have a structure
 _BLOCKS = 3  # parts along each side, whose means and deviations are compared
 _AROUND = 3  # pixels around a top of the autocorrelation that are all lower
 _PEAK = 0.36  # of the autocorrelation above the valley before it: what repeats
@@ -99,7 +100,7 @@ def _structure(grey: np.ndarray) -> float:
     np.divide(np.abs(half) * by_chance, np.abs(by_chance), out=turned, where=np.abs(by_chance) > 1e-9)
     likewise = irfft2(turned.astype(np.complex64), values.shape)[0]
     likewise.flat[np.argsort(likewise, axis=None)] = np.sort(values, axis=None)
-    return max(0.0, _together(values) - _together(likewise))
+    return max(0.0, _together(values) - _together(likewise) - _CHANCE / min(values.shape))
 
 
 def _together(values: np.ndarray) -> float:
