@@ -47,7 +47,8 @@ class Asked:
     asked about; `quit`: the window is to go; `texture`: a name under which one is being made, which joins the ink
     when the painting has it; `merge`: what merges layers once that is told, ink going no finer than `merge_level`;
     `bake`: what makes paint of a placement and loses detail; `film`: what is chosen of the film that is asked for;
-    `bringing`: a picture that was given to the painting, and to which place of the canvas; `ground`: a map that is to
+    `bringing`: a picture that was given to the painting, and to which place of the canvas; `doctor`: one of which
+    the texture doctor is asked; `ground`: a map that is to
     be laid; `brush`: one that is to be shared."""
 
     dialog: str = ""
@@ -66,6 +67,7 @@ class Asked:
     bake_loses: tuple[bool, bool] = (True, False)  # fine detail, and how thick its paint is
     film: FilmState = field(default_factory=FilmState)
     bringing: tuple[Path, Place] | None = None
+    doctor: Path | None = None
     ground: FoundMap | None = None
     brush: Preset | None = None
 

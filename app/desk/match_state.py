@@ -13,7 +13,7 @@ from app.desk.knots import Knots
 from engine.numeric.address import Rect
 from engine.studio.requests import Request
 from engine.studio.textures.texture_requests import MatchSet, MatchUse
-from engine.studio.textures.texture_results import MatchScene
+from engine.studio.textures.texture_results import DoctorScene, MatchScene
 
 SIZES = (128, 256, 512)
 LEVELS, ORIENTATIONS, ITERATIONS = 4, 4, 5
@@ -55,6 +55,7 @@ class MatchState:
     )  # where examples are dropped; 2 is the panel
     awaited: tuple[str, str] | None = None
     scene: MatchScene | None = None
+    doctored: DoctorScene | None = None  # what is known of the picture that the texture doctor looks at
     _posted: tuple[str, Map[str, Any] | None] | None = None
 
     @property

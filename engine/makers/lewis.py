@@ -142,6 +142,11 @@ def flattened(rgba: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
     return _planes(np.concatenate([rgba[:3] + (1.0 - rgba[3:]) * mean, rgba[3:]]))
 
 
+def opaque_or_not(rgba: np.ndarray) -> np.ndarray:
+    """Returns a premultiplied picture (4, h, w) as few planes as tell it: grey, RGB, or all four."""
+    return rgba if (rgba[3] != 1.0).any() else _planes(rgba)
+
+
 def _planes(rgba: np.ndarray) -> np.ndarray:
     grey = np.array_equal(rgba[0], rgba[1]) and np.array_equal(rgba[0], rgba[2])
     return rgba[:1] if grey else rgba[:3]

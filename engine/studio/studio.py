@@ -50,6 +50,7 @@ from engine.studio.textures import swatch_files, swatches
 from engine.studio.textures.lab import Lab
 from engine.studio.textures.matcher import Matcher
 from engine.studio.textures.region_strokes import Regions
+from engine.studio.textures.texture_doctor import TextureDoctor
 from engine.studio.warming import Warming
 
 _NO_REQUESTS: q.Handlers = {}
@@ -122,7 +123,7 @@ class Studio(Owned):
             Work(lambda: past.untold, past.tell),
             *_each(LandMaker(easel), Sheeting(easel), travels, HereFinder(trail), LayerPictures(easel)),
             Work(lambda: self.grower.pending, self._grow),
-            *_each(Wearer(easel), Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
+            *_each(Wearer(easel), Matcher(easel), TextureDoctor(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
             _of(past),
             Work(lambda: easel.session.room.pending, lambda: easel.session.room.step()),
             Work(lambda: int(easel.live is None and collecting.due()), collecting.pass_over),

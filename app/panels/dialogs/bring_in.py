@@ -8,7 +8,7 @@ from app import icons, theme
 from app.desk import previews
 from app.desk.desk import Desk
 from app.desk.examples import example_work
-from app.desk.outside import bringing, bringing_layers, ground_maps, pictured
+from app.desk.outside import bringing, bringing_layers, doctoring, ground_maps, pictured
 from app.desk.previews import PAINTING, FileRow
 from app.panels.controls import widgets as w
 from app.tools.filling_gestures import drop_texture
@@ -60,6 +60,11 @@ class BringIn:
         if w.text_button("Example", "Paint with more of the same, with its own rim", width=wide):
             desk.strip, desk.panels = "examples", True
             example_work.add(desk, self._path)
+            return True
+        if w.text_button(
+            "What suits it?", "Tries all makers of textures on it, and tells which one suits it", width=wide
+        ):
+            doctoring.ask_doctor(desk, self._path)
             return True
         if w.text_button("Open", "Leave this painting, and open the picture by itself", width=wide):
             path = self._path

@@ -15,6 +15,7 @@ from app.panels.dialogs import file_browser
 from app.panels.dialogs.adjust_dialog import AdjustDialog
 from app.panels.dialogs.bake_dialog import BakeDialog
 from app.panels.dialogs.bring_in import BringIn
+from app.panels.dialogs.doctor_dialog import DoctorDialog
 from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.erode_dialog import ErodeDialog
 from app.panels.dialogs.export_dialog import ExportDialog
@@ -293,6 +294,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "solid cube": file_browser.choosing_cube,
     "bring from": file_browser.choosing_to_bring,
     "bring in": BringIn,
+    "texture doctor": DoctorDialog,
     "palette from": file_browser.choosing_palette,
     "palette to": file_browser.writing_palette,
     "share brush": file_browser.sharing_brush,

@@ -17,11 +17,12 @@ from app.desk.hand import go_on_with_brush
 from app.desk.lab_state import with_texture
 from app.desk.match_state import SIZES, SMALLEST, title
 from app.desk.outside import pictured
+from app.desk.outside.doctoring import ask_doctor
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.match.match_settings import MatchSettings
 from app.panels.panel import Panel
-from engine.studio.textures.texture_results import MatchScene
+from engine.studio.textures.texture_results import DoctorScene, MatchScene
 
 REPEATS = 1.35  # tiles of 256 pixels that the preview shows along a side
 _USES = (
@@ -42,7 +43,7 @@ class MatchingPanel(Panel):
 
     def __init__(self) -> None:
         self._settings = MatchSettings()
-        self.hears = {MatchScene: _heard}
+        self.hears = {MatchScene: _heard, DoctorScene: _doctored}
 
     def wants(self, desk: Desk, now: float) -> None:
         """Asks for the texture as it is set."""
@@ -125,6 +126,11 @@ class MatchingPanel(Panel):
                 imgui.same_line(0, gap)
             if w.icon_button(name, icon, hint, on=on, enabled=free, size=side):
                 self._pick(desk, index, name)
+        held = match.examples[index]
+        if held is not None and "path" in held and not match.mixing:
+            imgui.same_line(0, gap)
+            if w.icon_button("doctor", icons.DOCTOR, "Which maker suits this example? All are tried", size=side):
+                ask_doctor(desk, Path(held["path"]))
         if match.examples[index] is not None:
             imgui.same_line(wide - side)
             if w.icon_button("away", icons.CLOSE, "Take it away", size=side):
@@ -208,6 +214,10 @@ class MatchingPanel(Panel):
 
 def _heard(desk: Desk, scene: MatchScene, _now: float) -> None:
     desk.match.scene = scene
+
+
+def _doctored(desk: Desk, scene: DoctorScene, _now: float) -> None:
+    desk.match.doctored = scene
 
 
 def _stem(desk: Desk) -> str:

@@ -125,7 +125,7 @@ def advised(report: Report, trials: Mapping[str, Trial], flat: bool) -> tuple[st
         return "paper", f"{width} x {height} pixels are too few to learn from: as a paper it stays as it is."
     if len(report.example) == 4 and float((report.example[3] < _CLEAR).mean()) > _RIMMED:
         return "grown", "Part of it is transparent: it has a rim, which it keeps when it is grown as an example."
-    lit = "" if flat or not report.gradients.light else " Take the light out first: it falls off over the picture."
+    lit = "" if flat or not report.gradients.light else " Light falls off over it: set it straight first."
     if "inhomogeneous" in kinds:
         return "grown", (
             "One part of it is unlike another, and a texture is the same all over: grown as an example, its parts stay "

@@ -100,7 +100,8 @@ def _structure(grey: np.ndarray) -> float:
     np.divide(np.abs(half) * by_chance, np.abs(by_chance), out=turned, where=np.abs(by_chance) > 1e-9)
     likewise = irfft2(turned.astype(np.complex64), values.shape)[0]
     likewise.flat[np.argsort(likewise, axis=None)] = np.sort(values, axis=None)
-    return max(0.0, _together(values) - _together(likewise) - _CHANCE / min(values.shape))
+    chance = _CHANCE / float(min(values.shape))
+    return max(0.0, _together(values) - _together(likewise) - chance)
 
 
 def _together(values: np.ndarray) -> float:

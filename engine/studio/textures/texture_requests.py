@@ -96,6 +96,15 @@ class MatchUse:
     arguments: Map[str, Any]
 
 
+@dataclass(frozen=True, slots=True)
+class DoctorAsk:
+    """A picture file is to be examined; "" for none any more.  `flat`: without the light and the slant that are found
+    in it."""
+
+    path: str
+    flat: bool = False
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RegionOpen:
     """The region of an example is to be painted.  `picture`: premultiplied RGBA, float32 (4, h, w); `first`: what the
@@ -169,4 +178,4 @@ RegionRequest = (
     RegionOpen | RegionBegin | RegionPoints | RegionEnd | RegionDo | RegionTravel | RegionSaved | RegionClose
 )
 LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
-MatchRequest = MatchSet | MatchUse
+MatchRequest = MatchSet | MatchUse | DoctorAsk

@@ -80,4 +80,33 @@ class MatchScene:
     copied: float = -1.0
 
 
-TextureResult = RegionScene | LabScene | Found | MatchScene
+@dataclass(frozen=True, slots=True)
+class DoctorTrial:
+    """One way in which a texture was made of an example (a row of `trying.TRIED`), whose picture is "doctor WAY": how
+    far it is from the example, which part is copied, and in how many seconds; or what is amiss."""
+
+    way: str
+    title: str
+    apart: float
+    copied: float
+    seconds: float
+    fault: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DoctorScene:
+    """What is known of the picture file `path`, which is the picture "doctor example": its `kinds`, where light falls
+    off and whither it slants, and what was tried so far; the `advice`, "" until that is known, and why; `fault`: what
+    is wrong with the file."""
+
+    path: str
+    kinds: tuple[str, ...] = ()
+    light: float = 0.0
+    slant: str = ""
+    trials: tuple[DoctorTrial, ...] = ()
+    advice: str = ""
+    why: str = ""
+    fault: str = ""
+
+
+TextureResult = RegionScene | LabScene | Found | MatchScene | DoctorScene
