@@ -12,6 +12,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
+from engine.numeric.in_parts import in_parts
 from engine.numeric.kernel import Array, Int, Low, inner, kernel
 
 _ROWS = 4  # that are worked on together
@@ -28,7 +29,13 @@ def products(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     x = _filled(x)
     y = x if same else _filled(y)
     out = np.zeros((x.shape[0], y.shape[0]))
-    _add_products(x.reshape(-1), y.reshape(-1), x.shape[1], same, out)
+    one, other, count = x.reshape(-1), y.reshape(-1), x.shape[1]
+    in_parts(
+        lambda first, last: _add_products(one, other, count, same, first, last, out),
+        len(out),
+        one.size * columns,
+        _ROWS,
+    )
     if same:
         out = np.tril(out) + np.tril(out, -1).T
     return out[:rows, :columns]
@@ -39,8 +46,10 @@ def combinations(factors: np.ndarray, x: np.ndarray, out: np.ndarray | None = No
     adding = out is not None
     made = np.empty((factors.shape[0], x.shape[1]), np.float32) if out is None else out
     room = made if len(made) % _ROWS == 0 else _filled(made)
-    flat = np.ascontiguousarray(x, np.float32).reshape(-1)
-    _combine(_filled(factors).reshape(-1), flat, x.shape[0], adding, room)
+    flat, told, count = np.ascontiguousarray(x, np.float32).reshape(-1), _filled(factors).reshape(-1), x.shape[0]
+    in_parts(
+        lambda first, last: _combine(told, flat, count, adding, first, last, room), x.shape[1], room.size * count, _WIDE
+    )
     if room is not made:
         made[:] = room[: len(made)]
     return made
@@ -136,33 +145,35 @@ def _strip(context: Low, a: Low, i: Low, x: Low, j: Low, step: Low, count: Low, 
 
 
 @kernel
-def _add_products(x: Array, y: Array, n: Int, same: bool, out: Array) -> None:
-    """out (a, b) += the products of flat x (a n) and y (b n); of the `same` only the lower half."""
+def _add_products(x: Array, y: Array, n: Int, same: bool, start: Int, end: Int, out: Array) -> None:
+    """Rows from `start` to `end` of out (a, b) += the products of flat x (a n) and y (b n); of the `same` only the
+    lower half."""
     part, even = np.empty(_ROWS * _ROWS, np.float32), n // _SUMMED * _SUMMED
     for first in range(0, even, _BLOCK):
         count = min(_BLOCK, even - first)
-        for i in range(0, out.shape[0], _ROWS):
+        for i in range(start, end, _ROWS):
             for j in range(0, i + _ROWS if same else out.shape[1], _ROWS):
                 _tile(x, i * n + first, y, j * n + first, n, count, part)
                 for k in range(_ROWS * _ROWS):
                     out[i + k // _ROWS, j + k % _ROWS] += np.float64(part[k])
     for p in range(even, n):
-        for i in range(out.shape[0]):
+        for i in range(start, end):
             for j in range(out.shape[1]):
                 out[i, j] += np.float64(x[i * n + p]) * np.float64(y[j * n + p])
 
 
 @kernel
-def _combine(factors: Array, x: Array, rows: Int, adding: bool, out: Array) -> None:
-    """out (a, n) = the flat factors (a rows) times the flat x (rows n), or more by that."""
+def _combine(factors: Array, x: Array, rows: Int, adding: bool, start: Int, end: Int, out: Array) -> None:
+    """Columns from `start`, a multiple of _WIDE, to `end` of out (a, n) = the flat factors (a rows) times the flat
+    x (rows n), or more by that."""
     n = out.shape[1]
     flat, even = out.reshape(-1), n // _WIDE * _WIDE
     if not adding:
-        out[:] = np.float32(0.0)
-    for p in range(0, even, _WIDE):
+        out[:, start:end] = np.float32(0.0)
+    for p in range(start, min(even, end), _WIDE):
         for i in range(0, out.shape[0], _ROWS):
             _strip(factors, i * rows, x, p, n, rows, flat, i * n + p)
-    if even < n:
+    if even < end:
         _combine_rest(factors, x, rows, out, even)
 
 

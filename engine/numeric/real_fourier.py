@@ -24,6 +24,7 @@ from engine.numeric.butterflies import (
     split,
     turn_over,
 )
+from engine.numeric.in_parts import in_parts
 from engine.numeric.kernel import Array, Int, inner, kernel
 
 _DIRECT = 31  # of the factors that are transformed as they stand
@@ -36,8 +37,13 @@ def rfft2(images: np.ndarray) -> np.ndarray:
     *leading, height, width = given.shape
     half = np.empty((*leading, height, width // 2 + 1), np.complex64)
     floats = half.view(np.float32).reshape(-1, height, 2 * half.shape[-1])
-    _rows(given.reshape(-1, height, width), floats, *_plan(width))
-    _columns(floats, False, *_plan(height))
+    pictures, across, down = given.reshape(-1, height, width), _plan(width), _plan(height)
+
+    def some(first: int, last: int) -> None:
+        _rows(pictures[first:last], floats[first:last], *across)
+        _columns(floats[first:last], False, *down)
+
+    in_parts(some, len(pictures), given.size)
     return half
 
 
@@ -46,8 +52,13 @@ def irfft2(half: np.ndarray, size: tuple[int, int], spent: bool = False) -> np.n
     floats = np.array(half, copy=None if spent else True, order="C").view(np.float32)
     floats = floats.reshape(-1, size[0], floats.shape[-1])
     out = np.empty((*half.shape[:-2], *size), np.float32)
-    _columns(floats, True, *_plan(size[0]))
-    _rows_back(floats, out.reshape(-1, *size), np.float32(1.0 / (size[0] * size[1])), *_plan(size[1]))
+    pictures, down, across = out.reshape(-1, *size), _plan(size[0]), _plan(size[1])
+
+    def some(first: int, last: int) -> None:
+        _columns(floats[first:last], True, *down)
+        _rows_back(floats[first:last], pictures[first:last], np.float32(1.0 / (size[0] * size[1])), *across)
+
+    in_parts(some, len(pictures), out.size)
     return out
 
 

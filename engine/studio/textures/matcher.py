@@ -31,6 +31,7 @@ from engine.studio.easel import Easel
 from engine.studio.textures import structure_ready
 from engine.studio.textures import texture_requests as tq
 from engine.studio.textures import texture_results as tr
+from engine.studio.textures.made_beside import made_beside
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern
 from engine.texture.mixing import SplitColours
@@ -214,10 +215,12 @@ def _seen_soon(plan: Plan) -> Iterator[heeger_bergen.Made]:
 
 
 def _when_ready(plan: Plan) -> Iterator[heeger_bergen.Made]:
-    """Yields the steps of a plan; of one with a structure once its kernels are there."""
-    if plan.structure != with_structure.NO_STRUCTURE:
-        yield from structure_ready.waiting(0.0)
-    yield from heeger_bergen.steps(plan)
+    """Yields the steps of a plan; of one with a structure once its kernels are there, and on a thread of their own."""
+    if plan.structure == with_structure.NO_STRUCTURE:
+        yield from heeger_bergen.steps(plan)
+        return
+    yield from structure_ready.waiting(0.0)
+    yield from made_beside(heeger_bergen.steps(plan))
 
 
 def _repeated(planes: np.ndarray, size: tuple[int, int]) -> np.ndarray:

@@ -11,6 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from engine.numeric.in_parts import in_parts
 from engine.numeric.kernel import Array, dividing
 from engine.numeric.sums import mean
 
@@ -45,7 +46,13 @@ def parents_of(real: np.ndarray, imaginary: np.ndarray, size: tuple[int, int]) -
     turned = np.empty((2 * count, *size), np.float32)
     rows, down = _spread(real.shape[1], size[0])
     columns, across = _spread(real.shape[2], size[1])
-    _parents(real, imaginary, rows, down, columns, across, sizes, turned)
+
+    def some(first: int, last: int) -> None:
+        part, other = slice(first, last), slice(count + first, count + last)
+        given = real[part], imaginary[part], rows, down, columns, across
+        _parents(*given, sizes[part], turned[part], turned[other])
+
+    in_parts(some, count, sizes.size)
     found = sizes.reshape(count, -1)
     found -= mean(found, axis=1, dtype=np.float64).astype(np.float32)[:, None]
     return found, turned.reshape(2 * count, -1)
@@ -89,7 +96,15 @@ def _impose(real: Array, imaginary: Array, wanted: Array, means: Array) -> None:
 
 @dividing
 def _parents(
-    real: Array, imaginary: Array, rows: Array, down: Array, columns: Array, across: Array, sizes: Array, turned: Array
+    real: Array,
+    imaginary: Array,
+    rows: Array,
+    down: Array,
+    columns: Array,
+    across: Array,
+    sizes: Array,
+    cosines: Array,
+    sines: Array,
 ) -> None:
     count, height, width = sizes.shape
     a, b = np.empty(real.shape[2], np.float32), np.empty(real.shape[2], np.float32)
@@ -100,7 +115,7 @@ def _parents(
             _across_rows(imaginary[n], rows[:, y], down[:, y], b)
             _along(a, columns, across, c)
             _along(b, columns, across, d)
-            size, one, other = sizes[n, y], turned[n, y], turned[count + n, y]
+            size, one, other = sizes[n, y], cosines[n, y], sines[n, y]
             for x in range(width):
                 far = np.sqrt(c[x] * c[x] + d[x] * d[x]) + _TINY
                 size[x] = far

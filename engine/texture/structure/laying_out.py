@@ -7,9 +7,11 @@ statistics are given once.  A start may fail, so several are made, and the one t
 
 from __future__ import annotations
 
-import math
+import os
 from collections.abc import Generator, Iterator
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
+from threading import Event
 
 import numpy as np
 
@@ -30,6 +32,7 @@ _ROUNDS = (1, 2, 3)  # at scales 0, 1, 2
 _STARTS = ((16, 6, 1.1), (12, 5, 1.02), None)  # blocks of quilts: side, overlap, tolerance; None: joint statistics
 _NARROWEST = 2 * _SIDE  # an example's grid
 _SWEEPS = 6  # of a start by statistics
+_LOOK = 0.02  # seconds between two looks at starts that threads make
 _DOMAIN = 0x6C61796F  # "layo"
 
 Laid = tuple[np.ndarray, np.ndarray]  # planes, and where their patches come from
@@ -97,21 +100,36 @@ def _grounds(picture: np.ndarray, wanted: Joint, top: int) -> Generator[Progress
 def _begun(ground: Ground, wanted: Joint, size: Size, seed: int, top: int) -> Generator[Progressed, None, Laid]:
     """Yields until the best of several starts is found; returns it."""
     goal = bands_measured(ground.planes, 2)
+    sides = [side for side in _SIDES if side <= max(_SIDE, min(ground.size) // 2)]
     known: dict[int, Patches] = {}
-    best, found = math.inf, None
-    for number, block in enumerate(_STARTS):
-        planes = _started(ground, wanted, size, (seed, number), block, top)
-        for side in (side for side in _SIDES if side <= max(_SIDE, min(ground.size) // 2)):
-            patches = known.get(side) or known.setdefault(side, Patches(ground.colours, side, size[0] * size[1]))
-            source = patches.nearest(ground.seen(planes), ground.size)
+    for side in sides:
+        if side not in known:
+            known[side] = Patches(ground.colours, side, size[0] * size[1])
+            yield Progressed(0.0)
+
+    given_up = Event()
+
+    def begin(number: int) -> tuple[float, Laid]:
+        planes = _started(ground, wanted, size, (seed, number), _STARTS[number], top)
+        for side in sides:
+            if given_up.is_set():
+                break
+            source = known[side].nearest(ground.seen(planes), ground.size)
             planes = ground.unseen(laid_down(ground.colours, source, weights_of(side)))
-            yield Progressed(0.5 * number / len(_STARTS))
         planes = _once(planes, wanted, top)
-        apart = unlike(bands_measured(planes, 2), goal)
-        if found is None or apart < best:
-            best, found = apart, (planes, source)
-    assert found is not None
-    return found
+        return unlike(bands_measured(planes, 2), goal), (planes, source)
+
+    found: list[tuple[float, Laid]] = []
+    pool = ThreadPoolExecutor(min(os.cpu_count() or 1, len(_STARTS)), "inkfall layout")
+    try:
+        for number, begun in enumerate([pool.submit(begin, number) for number in range(len(_STARTS))]):
+            while not wait([begun], _LOOK).done:
+                yield Progressed(0.5 * number / len(_STARTS))
+            found.append(begun.result())
+    finally:  # nobody waits for what is not wanted any more
+        given_up.set()
+        pool.shutdown(wait=False, cancel_futures=True)
+    return min(found, key=lambda one: one[0])[1]
 
 
 def _started(

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.numeric import elementary
+from engine.numeric.in_parts import in_parts
 from engine.numeric.kernel import Array, Int, Real, dividing, inner, kernel
 
 _WIDTH = 3.2  # patches are so many deviations of their weights wide
@@ -45,14 +46,15 @@ def gathered(picture: np.ndarray, side: int, around: bool, weights: np.ndarray) 
 def laid_down(example: np.ndarray, source: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Returns the picture (h, w, C) that all patches make together, averaged where they overlap."""
     out = np.zeros((*source.shape[:2], example.shape[2]), np.float32)
-    _lay(example, source, weights, out)
+    in_parts(lambda first, last: _lay(example, source, weights, first, last, out), len(out), out.size * weights.size)
     return out
 
 
 def coherent(picture: np.ndarray, example: np.ndarray, source: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Returns for each place the best of its own source and those of its neighbours, moved on as far as they are."""
     out = np.empty_like(source)
-    _choose(picture, example, source, weights, out)
+    values = picture.size * weights.size
+    in_parts(lambda first, last: _choose(picture, example, source, weights, first, last, out), len(out), values)
     return out
 
 
@@ -69,7 +71,7 @@ def quilted(
 
 
 @dividing
-def _lay(example: Array, source: Array, weights: Array, out: Array) -> None:
+def _lay(example: Array, source: Array, weights: Array, start: Int, end: Int, out: Array) -> None:
     height, width, channels = out.shape
     side = weights.shape[0]
     reach = side // 2
@@ -77,7 +79,7 @@ def _lay(example: Array, source: Array, weights: Array, out: Array) -> None:
     for a in range(side):
         for b in range(side):
             total += weights[a, b]
-    for y in range(height):
+    for y in range(start, end):
         for a in range(side):
             row = source[(y + reach - a) % height]
             for b in range(side):
@@ -119,11 +121,11 @@ def _unlike(picture: Array, example: Array, y: Int, x: Int, n: Int, m: Int, weig
 
 
 @kernel
-def _choose(picture: Array, example: Array, source: Array, weights: Array, out: Array) -> None:
+def _choose(picture: Array, example: Array, source: Array, weights: Array, start: Int, end: Int, out: Array) -> None:
     height, width = source.shape[:2]
     reach = weights.shape[0] // 2
     bottom, right = example.shape[0] - 1 - reach, example.shape[1] - 1 - reach
-    for y in range(height):
+    for y in range(start, end):
         for x in range(width):
             n = min(max(source[y, x, 0], reach), bottom)
             m = min(max(source[y, x, 1], reach), right)
