@@ -134,6 +134,8 @@ class Matcher(Owned):
         if made is None:
             self._end(work)
             return
+        if made.colours is None and made.done == work.done:
+            return  # nothing new
         work.done = made.done
         if made.colours is not None:
             work.colours = made.colours
