@@ -15,7 +15,7 @@ import numpy as np
 from engine.canvas import kernels
 from engine.canvas.compact import compact
 from engine.canvas.dither import dithering
-from engine.canvas.store import Attenuation, Pyramid, Record
+from engine.canvas.store import Attenuation, Pyramid, Record, finer_levels, level_bounds
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.column import Column
 from engine.numeric.pyramid import expand
@@ -113,8 +113,9 @@ def fold(pyramid: Pyramid, depth: int | None = None) -> Pyramid:
     file stores.  The past of `pyramid` is kept."""
     until = pyramid.depth if depth is None else depth
     folded = [waits for waits in pyramid.waiting() if waits.change.depth <= until]
-    levels, known = pyramid.levels, pyramid.known
-    for level, stored in pyramid.levels.items():
+    levels, known, bounds = pyramid.levels, pyramid.known, level_bounds(pyramid)
+    for level in _levels_met(pyramid, folded):
+        stored = pyramid.levels[level]
         if not (places := _places(pyramid, level, folded)):
             continue
         editable, changed = stored.mutate(), False
@@ -135,7 +136,9 @@ def fold(pyramid: Pyramid, depth: int | None = None) -> Pyramid:
             levels = levels.set(level, finished) if len(finished) else levels.delete(level)
             blocks = pyramid.blocks(level)
             known = known if blocks is None else known.set(level, blocks.after(finished, places))
-    return replace(pyramid, levels=levels, settled=until, waits=_left(pyramid, until), known=known)
+    bounds = None if bounds is None else bounds.after(levels, ())
+    left = _left(pyramid, until)
+    return replace(pyramid, levels=levels, settled=until, waits=left, known=known, bounds_known=bounds)
 
 
 def _left(pyramid: Pyramid, depth: int) -> Attenuation | None:
@@ -144,6 +147,12 @@ def _left(pyramid: Pyramid, depth: int) -> Attenuation | None:
     for waits in reversed(list(pyramid.waiting(depth))):
         left = replace(waits, before=left)
     return left
+
+
+def _levels_met(pyramid: Pyramid, folded: Sequence[Attenuation]) -> set[int]:
+    """Returns the levels that may have records which any of some attenuations meets."""
+    changes = [waits.change for waits in folded]
+    return {level for one in changes for level in finer_levels(pyramid, one.level, one.rect.grown(2))}
 
 
 def _places(pyramid: Pyramid, level: int, folded: Sequence[Attenuation]) -> set[tuple[int, int]]:

@@ -18,7 +18,8 @@ from engine.canvas.front import Around, Patch, climbs, cropped, lift, united
 from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store
 from engine.canvas.rising.lasting import Lasting
-from engine.canvas.store import Attenuation, Change, Pyramid, Record, level_of
+from engine.canvas.rising.level_bounds import LevelTiles
+from engine.canvas.store import Attenuation, Change, Pyramid, Record, finer_levels, level_bounds, level_of
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, widened
@@ -240,7 +241,7 @@ def _slabs(rects: Sequence[Rect], climb: int) -> list[Rect]:
 def _stored_below(pyramid: Pyramid, level: int, rect: Rect) -> bool:
     """Tells whether a finer level holds residuals that a stroke over `rect` would weaken."""
     around = rect.grown(2)
-    return any(pyramid.has_records(k, around.zoomed(k - level)) for k in pyramid.levels if k > level)
+    return any(pyramid.has_records(k, around.zoomed(k - level)) for k in finer_levels(pyramid, level, around))
 
 
 def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None, records: NewRecords) -> Pyramid:
@@ -251,7 +252,7 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
     by_level: dict[int, list[TileKey]] = {}
     for key in records:
         by_level.setdefault(key.level, []).append(key)
-    levels, known = pyramid.levels, pyramid.known
+    levels, known, bounds = pyramid.levels, pyramid.known, level_bounds(pyramid)
     for k, keys in by_level.items():
         stored = levels.get(k)
         editable = level_of({} if stored is None else stored).mutate()
@@ -261,7 +262,10 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
         blocks = pyramid.blocks(k)
         if blocks is not None:
             known = known.set(k, blocks.after(finished, [(key.x, key.y) for key in keys]))
-    after = replace(pyramid, levels=levels, last=change, waits=waits, commits=number, known=known)
+    if bounds is not None:
+        written = (LevelTiles(k, [(key.x, key.y) for key in keys]) for k, keys in by_level.items())
+        bounds = bounds.after(levels, written)
+    after = replace(pyramid, levels=levels, last=change, waits=waits, commits=number, known=known, bounds_known=bounds)
     waiting = list(after.waiting()) if keeps else []
     if len(waiting) <= _MOST_WAITING:
         return after

@@ -22,6 +22,7 @@ import numpy as np
 
 from engine.canvas.rising import paged_level
 from engine.canvas.rising.lasting import Lasting
+from engine.canvas.rising.level_bounds import MANY_LEVELS, LevelBounds
 from engine.canvas.rising.paged_level import PagedLevel, bit_of
 from engine.canvas.rising.tile_blocks import Blocks
 from engine.numeric.address import Rect, TileKey
@@ -218,10 +219,12 @@ class Ground:
 class Pyramid:
     """One state of a layer's canvas.
 
-    `uid` names the layer's line of history, for caches.  `waits`: the newest attenuation that was not applied to the
-    records; `settled`: those of the commits up to this depth have been.  `ground`: the picture that the layer began
-    with, if it began with one.  `grid`: on which all values lie, by its bits; `commits`: how many there were in all the
-    layer's life, which counts where the grid is coarse.  `known`: where the records of some levels lie (`blocks`).
+    `uid` names the layer's line of history, for caches, `family` the one that it branched from: only those of one
+    family share records.  `waits`: the newest attenuation that was not applied to the records; `settled`: those of the
+    commits up to this depth have been.  `ground`: the picture that the layer began with, if it began with one.
+    `grid`: on which all values lie, by its bits; `commits`: how many there were in all the layer's life, which counts
+    where the grid is coarse.  `known`: where the records of some levels lie (`blocks`), `bounds_known` those of all
+    (`level_bounds`).
     """
 
     levels: immutables.Map[int, Level] = field(default_factory=immutables.Map)
@@ -233,6 +236,8 @@ class Pyramid:
     grid: int = FINE
     commits: int = 0
     known: immutables.Map[int, Blocks] = field(default_factory=immutables.Map, repr=False)
+    family: int = field(default_factory=lambda: next(_serials))
+    bounds_known: LevelBounds | None = field(default=None, repr=False)
 
     @property
     def step(self) -> np.float32:
@@ -247,7 +252,8 @@ class Pyramid:
     @property
     def coarsest(self) -> int | None:
         """Gives the coarsest level with a record; None if there is none."""
-        return min(self.levels, default=None)
+        bounds = level_bounds(self)
+        return min(self.levels, default=None) if bounds is None else bounds.coarsest
 
     @property
     def finest(self) -> int | None:
@@ -354,6 +360,23 @@ class Pyramid:
         """Counts the bytes of memory that all records take; those of pages on disk take hardly any."""
         levels = (s.here() if isinstance(s, PagedLevel) else s.values() for s in self.levels.values())
         return sum(record.nbytes for records in levels for record in records)
+
+
+def level_bounds(pyramid: Pyramid) -> LevelBounds | None:
+    """Returns where the records of all levels lie; None where these are few.  Going through all is noted."""
+    if len(pyramid.levels) < MANY_LEVELS:
+        return None
+    known = pyramid.bounds_known
+    if known is None or known.levels is not pyramid.levels:
+        known = LevelBounds.of(pyramid.levels)
+        object.__setattr__(pyramid, "bounds_known", known)
+    return known
+
+
+def finer_levels(pyramid: Pyramid, level: int, rect: Rect) -> Iterator[int]:
+    """Yields the finer levels that may have records in a rectangle of a level."""
+    bounds = level_bounds(pyramid)
+    return (k for k in pyramid.levels if k > level) if bounds is None else bounds.finer(level, rect)
 
 
 def changes_between(a: Change | None, b: Change | None) -> Iterator[Change]:

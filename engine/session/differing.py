@@ -4,18 +4,18 @@ the bytes that these take."""
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Set
 
 from immutables import Map
 
 from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.growth import Growth
-from engine.canvas.layers import Group
+from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.rising.paged_level import PagedLevel, TilePlace, page_of
-from engine.canvas.store import RECORD_OVERHEAD, Change, Level, Pyramid, Record, changed_rects
+from engine.canvas.store import RECORD_OVERHEAD, Change, Level, Pyramid, Record, changed_rects, changes_between
 from engine.numeric.address import Rect, TileKey
-from engine.session.held_pyramids import pyramids
+from engine.session.held_pyramids import Sheet, changed_nodes, pyramids_of, related
 from engine.texture.example.tiles import TilePlanes
 from engine.texture.sparse_planes import SparsePlanes
 
@@ -26,10 +26,12 @@ OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and w
 
 
 class _Holding:
-    """The records in memory of a state of the layers, looked for in all of them: a copy of a layer shares them."""
+    """The records in memory of a state of the layers, looked for in all that may share them: a copy of a layer does.
 
-    def __init__(self, root: Group) -> None:
-        self._pyramids = list(pyramids(root).values())
+    `families`: of the pyramids whose records are looked for."""
+
+    def __init__(self, root: Group, families: Set[int]) -> None:
+        self._pyramids = related(root, families)
         self._levels: dict[int, list[Level]] = {}
 
     def holds(self, key: TileKey, record: Record | None) -> bool:
@@ -80,15 +82,16 @@ def _all_in_memory(stored: Level, beside: list[Level]) -> Iterator[tuple[TilePla
 def difference(old: Group, new: Group, lessen: Callable[[Record, Record], None] | None = None) -> tuple[int, int]:
     """Returns bytes that only `old` holds, and bytes that only `new` holds, in whichever layer.  `lessen`: makes a
     record that only `old` holds smaller by the one that took its place, before it is counted."""
-    before = {layer.id: layer for layer in layers.layers(old)}
-    after = {layer.id: layer for layer in layers.layers(new)}
-    in_old, in_new = _Holding(old), _Holding(new)
+    nodes = changed_nodes(old, new)
+    before, after = map(_growths, nodes)
     lost = gained = 0
     for number in before.keys() | after.keys():
-        one, other = before.get(number), after.get(number)
-        lost += _regrown(one.growth if one else (), other.growth if other else ())
-        gained += _regrown(other.growth if other else (), one.growth if one else ())
-    here, there = pyramids(old), pyramids(new)
+        one, other = before.get(number, ()), after.get(number, ())
+        lost += _regrown(one, other)
+        gained += _regrown(other, one)
+    here, there = map(pyramids_of, nodes)
+    families = {pyramid.family for pyramid in (*here.values(), *there.values())}
+    in_old, in_new = _Holding(old, families), _Holding(new, families)
     for sheet in here.keys() | there.keys():
         a, b = here.get(sheet), there.get(sheet)
         if a is b:
@@ -105,6 +108,11 @@ def difference(old: Group, new: Group, lessen: Callable[[Record, Record], None] 
             gained += 0 if in_old.holds(key, beside) else _alone(beside, record)
         lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
     return lost, gained
+
+
+def _growths(nodes: Iterable[Node]) -> dict[int, Growth]:
+    """Returns what was painted with examples on those of some nodes that are layers, by their ids."""
+    return {node.id: node.growth for node in nodes if isinstance(node, Layer)}
 
 
 def _alone(record: Record | None, beside: Record | None) -> int:
@@ -131,37 +139,41 @@ def _regrown(one: Growth, other: Growth) -> int:
 
 def changed_records(far: Group, near: Group) -> Iterator[OnlyHere]:
     """Yields the records that one of two states of the layers has and the other has not, of layers that both have."""
-    there = pyramids(near)
-    for sheet, pyramid in pyramids(far).items():
-        other = there.get(sheet)
+    yield from _changed_records(*map(pyramids_of, changed_nodes(far, near)))
+
+
+def _changed_records(far: dict[Sheet, Pyramid], near: dict[Sheet, Pyramid]) -> Iterator[OnlyHere]:
+    for sheet, pyramid in far.items():
+        other = near.get(sheet)
         if other is not None and other is not pyramid and other.uid == pyramid.uid:
             yield from _only(pyramid, other)
 
 
 def apart_records(far: Group, near: Group) -> Iterator[OnlyHere]:
     """As `changed_records`, and those of layers that the other state has not."""
-    there = {sheet: pyramid.uid for sheet, pyramid in pyramids(near).items()}
-    for sheet, pyramid in pyramids(far).items():
-        if there.get(sheet) != pyramid.uid:
+    here, there = map(pyramids_of, changed_nodes(far, near))
+    for sheet, pyramid in here.items():
+        other = there.get(sheet)
+        if other is None or other.uid != pyramid.uid:
             yield from ((key, record, None) for key, record in pyramid.all_records())
-    yield from changed_records(far, near)
+    yield from _changed_records(here, there)
 
 
 def apart_tiles(far: Group, near: Group) -> set[TilePlanes]:
     """Returns the tiles of what was painted with examples that one state of the layers has, and another nowhere."""
-    there = {layer.id: layer.growth for layer in layers.layers(near)}
-    changed = [layer.growth for layer in layers.layers(far) if there.get(layer.id) is not layer.growth]
+    here, there = map(_growths, changed_nodes(far, near))
+    changed = [growth for number, growth in here.items() if there.get(number) is not growth]
     found: set[TilePlanes] = set().union(*map(growths.tiles_of, changed))
-    return found.difference(*map(growths.tiles_of, there.values())) if found else found
+    return found.difference(*(growths.tiles_of(layer.growth) for layer in layers.layers(near))) if found else found
 
 
 def lost_records(old: Group, new: Group) -> Iterator[Record]:
     """Yields the records that one state of the layers has and a later one has not."""
-    there = pyramids(new)
-    for sheet, pyramid in pyramids(old).items():
+    here, there = map(pyramids_of, changed_nodes(old, new))
+    for sheet, pyramid in here.items():
         if sheet not in there:
             yield from (record for _, record in pyramid.all_records())
-    yield from (record for _, record, _ in changed_records(old, new))
+    yield from (record for _, record, _ in _changed_records(here, there))
 
 
 def _only(one: Pyramid, other: Pyramid) -> Iterator[OnlyHere]:
@@ -173,7 +185,7 @@ def _only(one: Pyramid, other: Pyramid) -> Iterator[OnlyHere]:
 def _apart(one: Pyramid, other: Pyramid) -> Iterator[tuple[TileKey, Record | None, Record | None]]:
     """Yields the places where two states of a line of history have other records, and what each has there."""
     folded = _folded_between(one, other)
-    for level in {*one.levels, *other.levels}:
+    for level in _levels_apart(one, other, folded):
         here, there = one.levels.get(level, _NOTHING), other.levels.get(level, _NOTHING)
         if here is there:
             continue
@@ -184,12 +196,23 @@ def _apart(one: Pyramid, other: Pyramid) -> Iterator[tuple[TileKey, Record | Non
 
 
 def _folded_between(one: Pyramid, other: Pyramid) -> list[Change]:
-    """Returns the commits of which what they leave of finer detail waits in one of two states alone: records changed
-    wherever it lay."""
+    """Returns the commits of which what they leave of finer detail waits in one of two states, and is settled in the
+    other: records changed wherever it lay."""
     if one.waits is other.waits:
         return []
     here, there = ({waits.change.serial: waits.change for waits in state.waiting()} for state in (one, other))
-    return [(here.get(serial) or there[serial]) for serial in here.keys() ^ there.keys()]
+    left = [change for serial, change in here.items() if serial not in there and change.depth <= other.settled]
+    return left + [change for serial, change in there.items() if serial not in here and change.depth <= one.settled]
+
+
+def _levels_apart(one: Pyramid, other: Pyramid, folded: list[Change]) -> Iterable[int]:
+    """Returns the levels that have other records in two states of a line of history, and perhaps some that have not."""
+    whole = {*one.levels, *other.levels} if folded else set[int]()
+    for change in changes_between(one.last, other.last) if not folded else ():
+        if change.coarsest is None:
+            return {*one.levels, *other.levels}
+        whole.update(range(change.coarsest, change.level + 1))
+    return whole
 
 
 def _rewritten(one: Pyramid, other: Pyramid, folded: list[Change], level: int) -> list[Rect]:

@@ -13,7 +13,7 @@ from engine.painting.value import Painting
 from engine.session.coding.coded_records import CodedData, Ways, decode, leads_to, put_away
 from engine.session.coding.coded_tiles import CodedTile, encode_tile
 from engine.session.differing import apart_records, apart_tiles, difference
-from engine.session.held_pyramids import pyramids
+from engine.session.held_pyramids import changed_nodes, pyramids_of, related
 from engine.texture.example.tiles import TilePlanes
 
 STEP_OVERHEAD = 6000  # bytes of a step's own objects, roughly: most are nodes of the maps of some ten levels
@@ -152,7 +152,8 @@ class StepLine:
         data that were looked at."""
         far, near = _ends(entry.step, self._undone)
         entry.records.clear()
-        elsewhere = pyramids(near).values()
+        apart = pyramids_of(changed_nodes(far, near)[0]).values()
+        elsewhere = related(near, {pyramid.family for pyramid in apart})
         for key, record, other in apart_records(far, near):
             if not any(pyramid.holds(key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
                 size = record.held.nbytes

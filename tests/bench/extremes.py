@@ -51,8 +51,9 @@ def paint(kind: str, count: int) -> dict[str, object]:
     if kind == "layers":
         for number in range(1, LAYERS + 1):
             session.do(c.AddLayer(f"Layer {number}"))
-    _stroke(session, (0, 0, 0, None), rng)  # kernels are loaded
-    session.do(c.Undo(1))
+    for level in (0, 3, 0):  # kernels are loaded
+        _stroke(session, (level, 0, 0, None), rng)
+    session.do(c.Undo(3))
     place, times = _PLACES[kind], []
     for _ in range(count):
         at = place(rng)

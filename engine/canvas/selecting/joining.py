@@ -42,7 +42,8 @@ def shared(pyramid: Pyramid, coverage: Coverage, inverse: bool = False) -> Pyram
     whole = fold(pyramid)
     finer = {k: stored for k, stored in whole.levels.items() if k > coverage.level}
     levels = type(whole.levels)({k: kept for k, s in finer.items() if len(kept := _below(s, k, coverage, inverse))})
-    bare = Pyramid(levels, whole.last, settled=whole.settled, grid=whole.grid, commits=whole.commits)
+    grid, commits = whole.grid, whole.commits
+    bare = Pyramid(levels, whole.last, settled=whole.settled, grid=grid, commits=commits, family=whole.family)
     return commit(bare, _Shared(coverage, _LAYING, None, False, None, alpha=whole, inverse=inverse))
 
 
