@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
 from functools import partial
 from typing import cast
 
@@ -24,7 +25,7 @@ from engine.canvas.placing.drawn_copies import ABOVE_ALL, Above, Asking, Copies,
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.portions import Portions, Work, run_through
 from engine.canvas.placing.self_copies import Tiles
-from engine.canvas.placing.self_turns import turns_of
+from engine.canvas.placing.self_turns import Turns, turns_of
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through, set_in
 from engine.canvas.placing.unpainted import Unpainted
 from engine.canvas.reading import Read
@@ -211,14 +212,15 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
         return _drawn(_gather(plan, level, shown, reading, turns[turn].unclipped), shown, False)
 
     def both(turn: int, shown: Rect, inner: np.ndarray | None) -> np.ndarray | None:
-        seen = turns[turn].unclipped
-        under, over = (_gather(steps, level, shown, read, seen) for steps in (below, above))
+        under, over = (_gather(steps, level, shown, read, turns[turn].unclipped) for steps in (below, above))
         middle: Found = [] if inner is None else [(own, blend.flat(inner))]
         return _drawn([*under, *middle, *over], shown, False)
 
     plainly, portions = all(step.over for step in above), source.sources.portions
-    about = source.placement, outer.unclipped, level, part
-    if own.opacity != 1 or not plainly:
+    about, mask = (source.placement, outer.unclipped, level, part), own.shown[1]
+    if mask is not None:
+        pixels = _by_now(portions, about, _cut_turns(source.sources, turns, (below, own, above), level, part, read))
+    elif own.opacity != 1 or not plainly:
         share, first = own.opacity if plainly else np.float32(1), 0 if portions is None else portions.turns
         pixels = _by_now(portions, about, lambda: unrolled.all_turns(turns, level, part, both, share, first))
     else:
@@ -228,10 +230,66 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
 
         pixels = _by_now(portions, ("below", *about), lambda: unrolled.lying_below(turns, level, part, of(below)))
         if above:
-            layers = unrolled.only_layers(step.source for step in above)
+            layers = _resting(source.sources, above)
             work = partial(unrolled.lying_above, turns, layers, level, part, of(above))
             pixels = unrolled.laid_over(_by_now(portions, ("above", *about), work), pixels)
     return None if pixels is None else outer.clipped(pixels, level, part, rect)
+
+
+def _cut_turns(
+    sources: Sources,
+    turns: Turns,
+    parts: tuple[tuple[CompositeStep, ...], CompositeStep, tuple[CompositeStep, ...]],
+    level: int,
+    rect: Rect,
+    read: Read,
+) -> Callable[[], Work]:
+    """Returns what makes the turns of a placement with a mask, whose step lies between some others."""
+    (below, own, above), portions = parts, sources.portions
+    mask, plainly = own.shown[1], all(step.over for step in above)
+    assert mask is not None
+
+    def gathered(plan: tuple[CompositeStep, ...], turn: int, shown: Rect) -> Found:
+        reading = sources.sparing(read) if plainly and plan is above else read  # most of a turn shows through
+        return _gather(plan, level, shown, reading, turns[turn].unclipped)
+
+    def under(turn: int, shown: Rect, inner: np.ndarray | None) -> np.ndarray | None:
+        del inner
+        return _drawn(gathered(below, turn, shown), shown, False)
+
+    def around(turn: int, shown: Rect, inner: np.ndarray | None) -> np.ndarray | None:
+        found = gathered(above, turn, shown)
+        if plainly:
+            return unrolled.laid_over(_drawn(found, shown, False), inner)
+        middle: Found = [] if inner is None else [(replace(own, opacity=np.float32(1)), blend.flat(inner))]
+        return _drawn([*middle, *found], shown, False)
+
+    def left(turn: int, shown: Rect) -> np.ndarray:
+        planes = _pixels(mask, level, shown, read, turns[turn].unclipped)
+        alpha = np.zeros((shown.height, shown.width), np.float32) if planes is None else planes[3]
+        return own.opacity * alpha
+
+    first = _whole_turns(sources, turns, mask, above, level, rect) if plainly and own.opacity == 1 else 0
+    few = 0 if portions is None else portions.turns
+    return partial(unrolled.cut_turns, turns, level, rect, left, (under, around), first, few)
+
+
+def _whole_turns(
+    sources: Sources, turns: Turns, mask: Mask, above: tuple[CompositeStep, ...], level: int, rect: Rect
+) -> int:
+    """Returns how many turns, from the outermost on, hold a rectangle, are left whole by the mask on the next one, and
+    have nothing above that."""
+    first, layers = turns.holding(level, rect), _resting(sources, above)
+    if layers is None or mask.sheet.id == sources.painted:
+        return 0
+    first = min(first, turns.whole(mask, level, rect))
+    return min(first, turns.empty(layers, level, rect)) if layers and first else first
+
+
+def _resting(sources: Sources, above: tuple[CompositeStep, ...]) -> list[Layer] | None:
+    """Returns the layers of steps; None if other things are among them, or a stroke in progress lies on one."""
+    found = unrolled.only_layers(step.source for step in above)
+    return None if found is None or any(layer.id == sources.painted for layer in found) else found
 
 
 def _by_now(portions: Portions | None, key: Hashable, begun: Callable[[], Work]) -> np.ndarray | None:

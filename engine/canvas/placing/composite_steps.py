@@ -52,6 +52,17 @@ class CompositeStep:
         """Tells whether all that it leaves of what is below is what lies within its own alpha."""
         return isinstance(self.source, Mask)
 
+    @property
+    def shown(self) -> tuple[Placed | None, Mask | None]:
+        """Gives what a placement shows, if that is all that the step lays, and its mask, if it has one."""
+        if isinstance(self.source, Placed):
+            return self.source, None
+        if self.over and isinstance(self.source, tuple) and len(self.source) == 2:
+            (first, last) = self.source
+            if first.may_cover and isinstance(first.source, Placed) and isinstance(last.source, Mask):
+                return first.source, last.source
+        return None, None
+
 
 Leaf: TypeAlias = "Layer | Placed | Paper | Mask"
 # What a block needs of a step: its pixels, (4, n) read-only, None if empty, or a list to be composited first.
@@ -61,11 +72,11 @@ Found = list[tuple[CompositeStep, "np.ndarray | Found | None"]]
 class Sources:
     """What placements of a tree show: the steps of each node, as if it were visible, opaque and normal.
 
-    `portions`: where turns are gone on with; None: all are made at once.  `painted`: the id of the layer that a stroke
-    in progress lies on."""
+    `portions`: where turns are gone on with; None: all are made at once.  `painted`: the id of the layer, or of the
+    mask's sheet, that a stroke in progress lies on."""
 
     def __init__(self, root: Group, portions: Portions | None = None, painted: int | None = None) -> None:
-        self.portions, self._painted = portions, painted
+        self.portions, self.painted = portions, painted
         self.sparing: Callable[[Read], Read] = functools.partial(Unpainted().reading, painted=painted)
         self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
         self._steps: dict[Shown, tuple[CompositeStep, ...]] = {}
@@ -89,7 +100,7 @@ class Sources:
         """Gives where what placements show lies, and its pictures; None where there are few of them."""
         if sum(isinstance(node, Placement) for node in self._nodes.values()) < _MANY:
             return None
-        painted = () if self._painted is None else (self._painted,)
+        painted = () if self.painted is None else (self.painted,)
         return Shared(self._root, self._nodes, self.end, frozenset((*self._rounds, *painted)))
 
     def steps(self, of: Shown) -> tuple[CompositeStep, ...]:
@@ -148,16 +159,16 @@ class Sources:
         if of not in self._own:
             loop, at = self.loop(of), []
             if loop is not None and tuple(map(len, loop.values())) == (1,):
-                plan = self.opened(of)
-                at = [i for i, step in enumerate(plan) if isinstance(step.source, Placed) and step.source.of == of]
+                shown = [step.shown[0] for step in self.opened(of)]
+                at = [i for i, one in enumerate(shown) if one is not None and one.of == of]
             self._own[of] = at[0] if at else None
         return self._own[of]
 
     def is_own(self, one: Placement) -> bool:
         """Tells whether a placement is the one way by which a node holds itself."""
         at = self.own(one.of)
-        own = None if at is None else self.opened(one.of)[at].source
-        return isinstance(own, Placed) and own.placement == one
+        own = None if at is None else self.opened(one.of)[at].shown[0]
+        return own is not None and own.placement == one
 
     def tiles(self, of: Shown, made: Callable[[Copies], Tiles[Leaf, Found]]) -> Tiles[Leaf, Found] | None:
         """Returns the tiles of what a node shows, if it holds itself in several ways; new ones are `made`."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.layers import Layer
@@ -17,7 +17,8 @@ from engine.canvas.placing.clip import Clip
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.placing.through import UNPLACED, Seen
-from engine.canvas.store import Change
+from engine.canvas.selecting.layer_mask import Mask
+from engine.canvas.store import Change, Pyramid
 from engine.numeric.address import Rect
 from engine.numeric.similarity import Dyadic
 
@@ -39,6 +40,7 @@ class Turns:
         self._bounds: dict[tuple[int, int], Rect] = {}
         self._starts: dict[int, int] = {}  # by level, where the last search ended
         self._empty: tuple[_States, SourcePart | None] = (), None
+        self._whole: tuple[_States, SourcePart | None] = (), None
         self._lock = threading.Lock()
 
     def _is_nested(self) -> bool:
@@ -83,23 +85,36 @@ class Turns:
 
     def empty(self, above: Sequence[Layer], level: int, rect: Rect) -> int:
         """Returns how many turns, from the outermost on, of which layers show nothing in a rectangle."""
-        states = tuple((layer.pyramid.uid, layer.pyramid.last) for layer in above)
         if not self._nested or any(layer.growth or layer.pyramid.bare is not None for layer in above):
             return 0
+        states = tuple((layer.pyramid.uid, layer.pyramid.last) for layer in above)
         held, part = self._empty
-        if len(held) != len(states) or any(a[0] != b[0] or a[1] is not b[1] for a, b in zip(held, states, strict=True)):
-            part = self._empty_part(above)
+        if not _the_same(held, states):
+            stored = [layer for layer in above if layer.pyramid.finest is not None]
+            finest = max((layer.pyramid.finest or 0 for layer in stored), default=0)
+            part = self._around(finest, lambda at, near: not any(_has_paint(layer, at, near) for layer in stored))
             self._empty = states, part
         return 0 if part is None else self._count(part, level, rect, -1)
 
-    def _empty_part(self, above: Sequence[Layer]) -> SourcePart | None:
-        """Returns a square around the place that all turns share in which layers have no paint, if there is one."""
-        stored = [layer for layer in above if layer.pyramid.finest is not None]
-        finest = max((layer.pyramid.finest or 0 for layer in stored), default=0)
+    def whole(self, mask: Mask, level: int, rect: Rect) -> int:
+        """Returns how many turns, from the outermost on, of which a mask around them hides nothing in a rectangle."""
+        pyramid = mask.selection.pyramid
+        if not self._nested or pyramid.bare is not None:
+            return 0
+        states = ((pyramid.uid, pyramid.last),)
+        held, part = self._whole
+        if not _the_same(held, states):
+            finest = (pyramid.finest or 0) - mask.moved.levels
+            part = self._around(finest, lambda at, near: _hides_nothing(mask, at, near))
+            self._whole = states, part
+        return 0 if part is None else self._count(part, level, rect.grown(_AROUND), -1)
+
+    def _around(self, finest: int, alike: Callable[[int, Rect], bool]) -> SourcePart | None:
+        """Returns a square around the place that all turns share that is `alike`, if there is one."""
         shared = self._shared(finest)
         for level in range(finest - _EMPTY_FROM, finest + 1):
             near = shared.zoomed(level - finest).grown(_AROUND)
-            if not any(_has_paint(layer, level, near) for layer in stored):
+            if alike(level, near):
                 return SourcePart(level, near)
         return None
 
@@ -137,10 +152,25 @@ def turns_of(placement: Placement, outer: Seen) -> Turns:
     return Turns(placement, outer)
 
 
+def _the_same(held: _States, states: _States) -> bool:
+    return len(held) == len(states) and all(a[0] == b[0] and a[1] is b[1] for a, b in zip(held, states, strict=True))
+
+
 def _has_paint(layer: Layer, level: int, rect: Rect) -> bool:
     """Tells whether something lies in a rectangle of a level, or is stored below it."""
-    pyramid = layer.pyramid
-    finer = (k for k in pyramid.levels if k > level)
-    return any(pyramid.has_records(k, rect.zoomed(k - level)) for k in finer) or (
-        evaluate_sparse(pyramid, level, rect.grown(_AROUND), None) is not None
+    return _has_finer(layer.pyramid, level, rect) or (
+        evaluate_sparse(layer.pyramid, level, rect.grown(_AROUND), None) is not None
     )
+
+
+def _hides_nothing(mask: Mask, level: int, rect: Rect) -> bool:
+    """Tells whether a mask hides nothing in a rectangle of a level, and of those below it."""
+    at = level + mask.moved.levels
+    near = mask.moved.similarity.box(rect, level, at, _AROUND)
+    share = mask.selection.part(at, near)
+    return isinstance(share, float) and share == 1.0 and not _has_finer(mask.selection.pyramid, at, near)
+
+
+def _has_finer(pyramid: Pyramid, level: int, rect: Rect) -> bool:
+    """Tells whether something is stored below a rectangle of a level."""
+    return any(pyramid.has_records(k, rect.zoomed(k - level)) for k in pyramid.levels if k > level)

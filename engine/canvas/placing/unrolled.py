@@ -11,12 +11,15 @@ from engine.canvas.placing.clip import clipped
 from engine.canvas.placing.portions import Work
 from engine.canvas.placing.self_turns import Turns
 from engine.canvas.placing.through import set_in
+from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric.address import Rect
 from engine.numeric.kernel import kernel
 
 HIDING = np.float32(1 - 2.0**-12)  # alpha in front of a pixel from which on nothing behind it counts
 
 
+# What is left of the turn within one, of each pixel of a rectangle: float32 (h, w).
+Left = Callable[[int, Rect], np.ndarray]
 # Composites what a turn shows of a rectangle, uncut, around what lies in it: float32 (4, h, w), a new array; or None.
 Draw = Callable[[int, Rect, "np.ndarray | None"], "np.ndarray | None"]
 
@@ -72,14 +75,59 @@ def _behind(
     pixels: np.ndarray | None, turns: Turns, turn: int, level: int, rect: Rect, draw: Draw
 ) -> np.ndarray | None:
     """Returns pixels with a turn laid behind them, cut by its frame."""
-    if pixels is None or not hides(pixels):
-        drawn = draw(turn, rect, None)
-        if pixels is None:
-            pixels = drawn
-        elif drawn is not None:
-            pixels = np.array(pixels, np.float32, order="C")
-            lay_behind(pixels, drawn)
-    return _cut(turns, turn, level, rect, pixels)
+    return _cut(turns, turn, level, rect, _lined(pixels, turn, rect, draw))
+
+
+def _lined(pixels: np.ndarray | None, turn: int, rect: Rect, draw: Draw) -> np.ndarray | None:
+    """Returns pixels with a turn laid behind them."""
+    if pixels is not None and hides(pixels):
+        return pixels
+    drawn = draw(turn, rect, None)
+    if pixels is None or drawn is None:
+        return drawn if pixels is None else pixels
+    pixels = np.array(pixels, np.float32, order="C")
+    lay_behind(pixels, drawn)
+    return pixels
+
+
+def cut_turns(
+    turns: Turns, level: int, rect: Rect, left: Left, draws: tuple[Draw, Draw], first: int, few: int = 0
+) -> Work:
+    """As `all_turns`, where a mask cuts each turn in the one around it; `draws`: what lies below in a turn, and what it
+    shows around that and all within.  `first`: so many turns, the outermost, hold the rectangle, are left whole and
+    have nothing above.  `few`: of so many turns more the picture is there to show meanwhile."""
+    below, around = draws
+    shown = [turns.within(first, level, rect)]
+    kept: list[np.ndarray] = []
+    through: np.ndarray | None = None  # how much of each pixel all masks so far leave
+    meanwhile: np.ndarray | None = None
+
+    def by_now() -> Work:
+        pixels: np.ndarray | None = None
+        for n in reversed(range(len(kept))):
+            part, turn = shown[n], first + n
+            inner = None if pixels is None else set_in(pixels, shown[n + 1], part) * kept[n]
+            pixels = _cut(turns, turn, level, part, around(turn, part, _lined(inner, turn, part, below)))
+            yield meanwhile
+        pixels = None if pixels is None else set_in(pixels, shown[0], rect)
+        for turn in reversed(range(first)):
+            if pixels is not None and hides(pixels):
+                break
+            pixels = _behind(pixels, turns, turn, level, rect, below)
+            yield meanwhile
+        return pixels
+
+    while not shown[-1].empty:
+        if few and len(kept) == few:
+            meanwhile = yield from by_now()
+        part = shown[-1]
+        share = left(first + len(kept), part)
+        through = share if through is None else through[part.slices(shown[-2])] * share
+        kept.append(np.where(through < np.float32(1) - HIDING, np.float32(0), share))
+        if not kept[-1].any():
+            break
+        shown.append(turns.within(first + len(kept), level, part))
+    return (yield from by_now())
 
 
 def lying_above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, draw: Draw) -> Work:
@@ -110,8 +158,8 @@ def leaves(sources: Iterable[object]) -> Iterator[object]:
 
 
 def only_layers(sources: Iterable[object]) -> list[Layer] | None:
-    """Returns the layers among sources of steps; None if there are placements among them."""
-    found = list(leaves(sources))
+    """Returns the layers among sources of steps; None if there is more among them than these and their masks."""
+    found = [one for one in leaves(sources) if not isinstance(one, Mask)]
     layers = [one for one in found if isinstance(one, Layer)]
     return layers if len(layers) == len(found) else None
 

@@ -53,6 +53,13 @@ def behind_its_own(pose=HALF, inverse=False):
     return replace(EMPTY, children=(a, itself(90, pose=pose, mask=Selection(b.pyramid, not inverse))))
 
 
+def below_paint(pose=HALF, **more):
+    """The same with a layer over all, which is masked, too."""
+    root = behind_its_own(pose)
+    over = replace(painted()[1], opacity=0.8, mask=Selection(painted()[0].pyramid))
+    return replace(root, children=(root.children[0], replace(root.children[1], **more), over))
+
+
 TREES = {
     "in a group": grouped,
     "in a thin group": lambda pose: grouped(pose, opacity=0.7),
@@ -63,6 +70,8 @@ TREES = {
     "within a mask": lambda pose: masked(pose, inverse=True),
     "behind a mask of its own": behind_its_own,
     "within a mask of its own": lambda pose: behind_its_own(pose, inverse=True),
+    "behind a mask of its own, below paint": lambda pose: below_paint(pose),
+    "thin behind a mask of its own": lambda pose: below_paint(pose, opacity=0.6),
     "round about": round_about,
     "round about twice": lambda pose: round_about(pose, (itself(62, 50, Pose(at=(60, 50), levels=-2, turn=1)),)),
     "beside a copy": lambda pose: replace(round_about(pose), children=(*round_about(pose).children, itself(70, 50))),
@@ -207,6 +216,23 @@ def test_what_lies_below_a_copy_is_not_read_where_its_mask_hides_nothing():
         compositing, "_covers", lambda step, source: not isinstance(source, list) and covers(step, source)
     ):
         np.testing.assert_array_equal(composite(root, 120, rect, layer_planes), found)  # read to the bottom
+
+
+@pytest.mark.parametrize("tree", [behind_its_own, below_paint])
+def test_a_masked_copy_is_read_as_often_at_any_depth(tree):
+    counts = []
+    for level in (40, 400):
+        x, y = fixed(HALF, level)
+        reads = []
+
+        def read(layer, level, rect, reads=reads):
+            reads.append(layer.name)
+            return layer_planes(layer, level, rect)
+
+        composite(tree(), level, Rect.at(x - 31, y - 23, 64, 64), read)
+        counts.append(len(reads))
+    assert counts[1] <= counts[0] + 6
+    assert counts[0] < 80
 
 
 @pytest.mark.parametrize("name", ["in a thin group", "round about twice", "behind a mask"])
