@@ -46,6 +46,8 @@ class Clip:
     def holds(self, level: int, rect: Rect) -> bool:
         """Tells whether a rectangle lies within it, a pixel from its rim."""
         grown, part = rect.grown(1), self.part.rect
+        if self.similarity.quarter is not None:
+            return _inner(self, level).intersect(grown) == grown
         for x in (grown.x0, grown.x1):
             for y in (grown.y0, grown.y1):
                 u, v = self.similarity.back((2 * x, 2 * y), level, self.part.level, 8)
@@ -57,6 +59,19 @@ class Clip:
 @functools.lru_cache(_KEPT)  # it is asked for by every tile of the screen
 def _bounds(clip: Clip, level: int) -> Rect:
     return clip.similarity.shown(clip.part.rect, clip.part.level, level)
+
+
+@functools.lru_cache(_KEPT)
+def _inner(clip: Clip, level: int) -> Rect:
+    """Returns the pixels of a level that lie within an upright clip."""
+    part = clip.part
+    one, other = (clip.similarity(Dyadic.of(*corner, part.level)) for corner in (part.rect[:2], part.rect[2:]))
+    sides = []
+    for a, b in ((one.x, other.x), (one.y, other.y)):
+        low, high = sorted((_whole(a, level - one.e), _whole(b, level - other.e)))
+        sides.append((low + 1, high))
+    (x0, x1), (y0, y1) = sides
+    return Rect(x0, y0, max(x0, x1), max(y0, y1))
 
 
 def within(clips: Sequence[Clip], level: int, rect: Rect) -> Rect:

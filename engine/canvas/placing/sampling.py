@@ -14,9 +14,10 @@ from fractions import Fraction
 
 import numpy as np
 
+from engine.numeric.abreast import abreast
 from engine.numeric.address import TILE, Rect
 from engine.numeric.grid import snap
-from engine.numeric.kernel import Int, inlined, inner, kernel
+from engine.numeric.kernel import Int, inlined, kernel
 from engine.numeric.similarity import Similarity
 
 BITS = 40  # of the fractions of places in the source
@@ -25,8 +26,6 @@ _TO_PHASE, _PHASES = BITS - 8, 256
 _TAPS = 4
 _MARGIN = _TAPS // 2 + 1  # pixels of the source around a rectangle that its pixels can see
 _PIECE = 2 * TILE  # a turned rectangle is gone through in squares: the boxes around them are smaller than the one
-_PLAIN = np.float32(2)
-_PROBED, _MANY = 12, 4  # of pixels that far apart one in so many is alike, where it is worth looking for all
 _SHARP, _SOFT = 1.1892, 1.4142  # source pixels a pixel: Catmull and Rom's kernel up to here, Mitchell's from here on
 Picture = Callable[[int, Rect], "np.ndarray | None"]  # premultiplied float32 (4, h, w) of a level; None: empty
 
@@ -81,10 +80,9 @@ def _pieces(rect: Rect) -> Iterator[Rect]:
 def _piece(picture: Picture, similarity: Similarity, level: int, rect: Rect, part: Rect | None) -> np.ndarray | None:
     at_level = source_level(similarity, level)
     box = similarity.box(rect, level, at_level, _MARGIN)
-    found = _source(picture, at_level, box, part)
-    if found is None:
+    source = _source(picture, at_level, box, part)
+    if source is None:
         return None
-    source, alike = found
     out = np.empty((4, rect.height, rect.width), np.float32)
     right_x, right_y, down_x, down_y = similarity.pitch(level, at_level, BITS)
     table = _table(round(density(similarity) * 16))
@@ -94,13 +92,12 @@ def _piece(picture: Picture, similarity: Similarity, level: int, rect: Rect, par
         x, y = x - (box.x0 << BITS) - _HALF, y - (box.y0 << BITS) - _HALF  # from the middle of its first pixel
         columns, rows = shown.x0 - corner.x0, shown.y0 - corner.y0
         first = x + columns * right_x + rows * down_x, y + columns * right_y + rows * down_y
-        _sample(source, alike, first, (right_x, right_y, down_x, down_y), table, out[:, *shown.slices(rect)])
+        _sample(source, first, (right_x, right_y, down_x, down_y), table, out[:, *shown.slices(rect)])
     return out
 
 
-def _source(picture: Picture, level: int, box: Rect, part: Rect | None) -> tuple[np.ndarray, np.ndarray] | None:
-    """Returns a picture's pixels of `box`, interleaved, float32 (h, w, 4), those beyond `part` its rim's; and those
-    of `_find_alike`."""
+def _source(picture: Picture, level: int, box: Rect, part: Rect | None) -> np.ndarray | None:
+    """Returns a picture's pixels of `box`, interleaved, float32 (h, w, 4), those beyond `part` its rim's."""
     if part is not None and not box.meets(part):  # its rim is cut off there; it may be farther than 2^63 pixels
         return None
     inner = box if part is None else _nearest(box, part)
@@ -110,14 +107,13 @@ def _source(picture: Picture, level: int, box: Rect, part: Rect | None) -> tuple
     found = np.ascontiguousarray(found).view()
     found.flags.writeable = False  # whatever is given: so the kernel is compiled once
     out = np.empty((inner.height, inner.width, 4), np.float32)
-    alike = np.empty((inner.height, inner.width), np.uint8)
     _interleave(found, out)
-    _find_alike(found, alike)
     if inner == box:
-        return out, alike
+        return out
     rows = np.clip(np.arange(box.height) + (box.y0 - inner.y0), 0, inner.height - 1)
     columns = np.clip(np.arange(box.width) + (box.x0 - inner.x0), 0, inner.width - 1)
-    return out[rows[:, None], columns], alike[rows[:, None], columns]
+    spread: np.ndarray = out[rows[:, None], columns]
+    return spread
 
 
 def _nearest(box: Rect, part: Rect) -> Rect:
@@ -156,60 +152,6 @@ def _interleave(planes: np.ndarray, out: np.ndarray) -> None:
                 out[y, x, c] = planes[c, y, x]
 
 
-@kernel
-def _find_alike(planes: np.ndarray, out: np.ndarray) -> None:
-    """`out` uint8 (h, w) gets 1 where a pixel of `planes` (4, h, w) lies on the grid, within -2..2, and all of the
-    4 x 4 from it on, as far as there are any, are the same: weights that make up 1 come to nothing else there.  0 all
-    over where few are: looking for them would take longer than it saves."""
-    height, width = out.shape
-    if not _many_alike(planes):
-        out[:] = 0
-        return
-    found = np.zeros(width + _TAPS, np.uint8)
-    rows = np.full(width, _TAPS, np.uint8)  # from the one below on that are alike, of each column
-    for y in range(height - 1, -1, -1):
-        found[:] = 0
-        for c in range(4):
-            row, below = planes[c, y], planes[c, min(y + 1, height - 1)]
-            _differing(row[:-1], row[1:], below[:-1], found[: width - 1])
-            _differing(row[-1:], row[-1:], below[-1:], found[width - 1 : width])
-        _count_alike(found, rows, out[y])
-
-
-@inner
-def _many_alike(planes: np.ndarray) -> bool:
-    """Tells by some pixels whether many lie on the grid, and are the same as those 3 to the right and 3 below."""
-    looked = alike = 0
-    for y in range(0, planes.shape[1] - _TAPS, _PROBED):
-        for x in range(0, planes.shape[2] - _TAPS, _PROBED):
-            same = True
-            for c in range(4):
-                value = planes[c, y, x]
-                same &= value == snap(value) and value == planes[c, y, x + _TAPS - 1] == planes[c, y + _TAPS - 1, x]
-            looked += 1
-            alike += same
-    return alike * _MANY >= looked
-
-
-@inner
-def _differing(row: np.ndarray, right: np.ndarray, below: np.ndarray, found: np.ndarray) -> None:
-    """Notes in `found` where values are not those to the right of them, 1; not those below, 2; not plain, 4."""
-    for x in range(found.size):
-        value = row[x]
-        sides = np.uint8(value != right[x]) | np.uint8(2) * np.uint8(value != below[x])
-        found[x] |= sides | np.uint8(4) * (np.uint8(snap(value) != value) | np.uint8(abs(value) > _PLAIN))
-
-
-@inner
-def _count_alike(found: np.ndarray, rows: np.ndarray, out: np.ndarray) -> None:
-    """`rows` gets the number of rows that are alike from this one on, 4 at most; `out`: whether all are, and plain."""
-    for x in range(out.size):
-        below = np.uint8(0) if found[x] & np.uint8(2) else rows[x]
-        across = (found[x] | found[x + 1] | found[x + 2]) & np.uint8(1)
-        rows[x] = np.uint8(0) if across else np.uint8(min(below + np.uint8(1), np.uint8(_TAPS)))
-        out[x] = np.uint8(rows[x] >= _TAPS) & np.uint8(found[x] < np.uint8(4))
-
-
 @inlined
 def _weighted(
     source: np.ndarray, row: Int, column: Int, across: np.ndarray, down: np.ndarray
@@ -232,29 +174,23 @@ def _weighted(
     return r, g, b, a
 
 
-@kernel
+@abreast
 def _sample(
     source: np.ndarray,
-    alike: np.ndarray,
     first: tuple[int, int],
     pitch: tuple[int, int, int, int],
     table: np.ndarray,
     out: np.ndarray,
 ) -> None:
-    """`out` (4, h, w) from `source` (H, W, 4): `first` and `pitch` in 2^-40 pixels, from the middle of its first.
-    `alike`: those of `_find_alike`."""
+    """`out` (4, h, w) from `source` (H, W, 4): `first` and `pitch` in 2^-40 pixels, from the middle of its first."""
     right_x, right_y, down_x, down_y = pitch
     zero, one, half = np.float32(0), np.float32(1), np.int64(1) << np.int64(_TO_PHASE - 1)
     for y in range(out.shape[1]):
         for x in range(out.shape[2]):
             u, v = first[0] + x * right_x + y * down_x + half, first[1] + x * right_y + y * down_y + half
             column, row = (u >> BITS) - 1, (v >> BITS) - 1
-            nearest = source[row, column]
-            r, g, b, a = nearest[0], nearest[1], nearest[2], nearest[3]
-            if not alike[row, column]:
-                r, g, b, a = _weighted(
-                    source, row, column, table[(u >> _TO_PHASE) & 255], table[(v >> _TO_PHASE) & 255]
-                )
+            across, down = table[(u >> _TO_PHASE) & 255], table[(v >> _TO_PHASE) & 255]
+            r, g, b, a = _weighted(source, row, column, across, down)
             alpha = min(max(snap(a), zero), one)
             out[0, y, x] = min(max(snap(r), zero), alpha)
             out[1, y, x] = min(max(snap(g), zero), alpha)
