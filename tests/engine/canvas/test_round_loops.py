@@ -251,3 +251,21 @@ def test_a_planned_picture_is_the_same_and_its_copies_are_made_once(name):
     composite(planned, 5, rect, read)
     again = len(reads) - before
     assert again < before / 8
+
+
+@pytest.mark.parametrize("masked", [False, True])
+def test_a_stroke_in_progress_is_seen_however_deep(masked):
+    """It lies on a layer above the copy, or on the copy's mask: neither is what is stored of it."""
+    a, b = painted()
+    mask = Selection(b.pyramid, inverse=True) if masked else None
+    over = () if masked else (b,)
+    root, (x, y) = replace(EMPTY, children=(a, itself(90, mask=mask), *over)), fixed(HALF, 60)
+    rect, number = Rect.at(x - 20, y - 20, 40, 40), -90 if masked else b.id
+
+    def read(layer, level, rect):
+        if layer.id != number:
+            return layer_planes(layer, level, rect)
+        return np.full((4, rect.height, rect.width), 0.5, np.float32)
+
+    seen = composite(Planned.of(root, painted=number), 60, rect, read)
+    assert np.abs(seen - composite(root, 60, rect, layer_planes)).max() > 0.1
