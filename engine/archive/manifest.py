@@ -34,7 +34,8 @@ from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.guiding.guides import NO_GUIDES, Guides, read_guides, write_guide
 from engine.painting.layering.placing_members import Placing, read_part, read_placing, write_part, write_placing
 from engine.painting.layering.role_members import role_kept, written_role
-from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
+from engine.painting.layering.touch_command import NO_TOUCHES, Touches, read_touches, write_touches
+from engine.painting.places import NO_BOOKMARKS, Bookmarks, read_bookmarks, write_bookmark
 from engine.painting.recording import SIDE_LIMIT, read_grid, read_paper
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
@@ -49,7 +50,7 @@ FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examp
 MANIFEST = "inkfall/manifest.json"
 MANIFEST_AGAIN = "inkfall/manifest-again.json"  # the same, without its own sum, at the other end of the file
 RECORDING = "inkfall/recording.jsonl"
-_MOST_NOTES = 20  # lines about bookmarks
+_MOST_NOTES = 20  # lines about bookmarks, guides and the like
 _CONSTANTS = {"byteorder": "little", "tile": TILE, "space": "srgb-premultiplied"}
 _UNIT = "2^-{}"
 
@@ -102,6 +103,7 @@ class Manifest:
     selections: tuple[SelectionEntry, ...] = ()
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
     paper: str | None = None
+    touches: Touches = NO_TOUCHES
     pictured: frozenset[int] = frozenset()
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
@@ -124,7 +126,7 @@ class Manifest:
         heaped = selection_files.with_heaps(replace(root, paper=self.paper), chosen.heaps)
         root = selection_files.with_masks(heaped, chosen.masks, self.pictured)
         own = self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid
-        return Painting(*own, chosen.selection, chosen.saved, guides=self.guides)
+        return Painting(*own, chosen.selection, chosen.saved, guides=self.guides, touches=self.touches)
 
     def grown_bytes(self) -> int:
         """Returns what all that was painted with examples takes in memory, about; FieldError if an example cannot
@@ -171,6 +173,7 @@ def manifest_json(
         },
         **({"bookmarks": list(map(write_bookmark, painting.bookmarks.values()))} if painting.bookmarks else {}),
         **({"guides": list(map(write_guide, painting.guides.values()))} if painting.guides else {}),
+        **({"touches": write_touches(painting.touches)} if painting.touches else {}),
         **({"synthesis": SYNTHESIS, "examples": plot_files.examples_json(examples)} if examples else {}),
         **selection_files.selections_told(selections, _pack_json),
         "pictures": {
@@ -187,7 +190,7 @@ def format_of(painting: Painting) -> int:
     clipped = any(node.clip for node in layers.walk(painting.root))
     wrapped = any(layer.wrap is not None or layer.heaps for layer in layers.layers(painting.root))
     masked = any(True for _ in selection_files.masks_of(painting.root))
-    if roles or clipped or wrapped or masked or chosen or painting.guides or painting.paper is not None:
+    if any((roles, clipped, wrapped, masked, chosen, painting.guides, painting.touches, painting.paper is not None)):
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT
@@ -250,7 +253,7 @@ def parse_manifest(value: Any) -> Manifest:
     active = members.take("active", None)
     if active is not None and not (isinstance(active, str) and layers.has(root, active)):
         raise members.fault("active", "the name of a layer")
-    guides, left_out = read_guides(members.take("guides", []))
+    marked, guides, touches = _beside_layers(members, told_of(lost))
     return Manifest(
         frame,
         members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT),
@@ -265,12 +268,13 @@ def parse_manifest(value: Any) -> Manifest:
         {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
         TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
         members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
-        *_bookmarks(members.take("bookmarks", []), [*told_of(lost), *left_out]),
+        *marked,
         members.integer("arithmetic", LIBRARY, lo=LIBRARY, hi=EVERYWHERE),
         held.grid,
         selection_files.read_selections(members, _packs),
         guides,
         read_paper(members) if version > PLACED_FORMAT else None,
+        touches,
         frozenset(one.id for one in lost),
     )
 
@@ -377,21 +381,15 @@ def _picture(sha: str, value: Any) -> PictureEntry:
     return PictureEntry(members.text("name"), sha, (width, height), _packs(members))
 
 
-def _bookmarks(value: object, notes: list[str]) -> tuple[Bookmarks, tuple[str, ...]]:
-    """Returns the bookmarks that can be read, after `notes` a line for each that cannot: no paint hangs on them."""
-    bookmarks, notes = NO_BOOKMARKS, list(notes)
-    for i, told in enumerate(value if isinstance(value, list) else [value]):
-        try:
-            command = read_bookmark(Fields(told, f"bookmarks[{i}]"))
-            if not isinstance(command, Bookmark) or command.name in bookmarks:
-                raise FieldError(
-                    f"bookmarks[{i}]", "no place or a name that is taken", "a place with a name of its own"
-                )
-            bookmarks = bookmarks_after(bookmarks, command)
-        except FieldError as error:
-            notes.append(f"a bookmark is left out: {error}")
-    most = notes if len(notes) <= _MOST_NOTES else [*notes[:_MOST_NOTES], f"{len(notes) - _MOST_NOTES} more"]
-    return bookmarks, tuple(most)
+def _beside_layers(members: Fields, notes: Sequence[str]) -> tuple[tuple[Bookmarks, tuple[str, ...]], Guides, Touches]:
+    """Returns what no paint hangs on, as far as it can be read; with the bookmarks, after `notes`, a line for each that
+    cannot, not more than anybody reads."""
+    guides, left_out = read_guides(members.take("guides", []))
+    touches, taken_off = read_touches(members.take("touches", []))
+    bookmarks, unmarked = read_bookmarks(members.take("bookmarks", []))
+    every = (*notes, *left_out, *taken_off, *unmarked)
+    few = every if len(every) <= _MOST_NOTES else (*every[:_MOST_NOTES], f"{len(every) - _MOST_NOTES} more")
+    return (bookmarks, few), guides, touches
 
 
 def _member(value: Any, where: str) -> tuple[int, str]:

@@ -13,32 +13,42 @@ from engine.makers.lewis import Sample
 from engine.numeric.grid import snapped
 from engine.painting.capture import PictureSource
 from engine.painting.commands import SEED_LIMIT
+from engine.painting.layering.touch_command import NO_TOUCHES, VOXELS, Touches
 from engine.solids.cube_files import read_cube
 from engine.solids.material_sliders import MATERIALS
+from engine.solids.painted.touching import Touched
 from engine.solids.slicing import STEEPEST, Slice, sliced
-from engine.solids.solid_lookup import Cubed, Procedural
+from engine.solids.solid_lookup import Cubed, Lookup, Procedural
 
 _UNITS = 16, 512  # pixels of a unit
 
 
 def of_solid(members: Fields, place: PictureSource) -> Sample:
     """Returns the slice that the members `material` and `values`, or `cube`, and `normal`, `depth`, `unit` and `seed`
-    tell."""
-    colours = sliced(slice_of(members, place.folder))
+    tell; with the paint on the solid that `touches` names."""
+    colours = sliced(slice_of(members, place.folder, place.touches))
     out = np.ones((4, *colours.shape[1:]), np.float32)
     out[:3] = np.clip(colours, 0.0, 1.0)
     return Sample(snapped(out))
 
 
-def slice_of(members: Fields, folder: Path | None = None) -> Slice:
+def slice_of(members: Fields, folder: Path | None = None, touches: Touches = NO_TOUCHES) -> Slice:
     """Returns the slice that a definition asks for; FieldError names the member that is wrong, FileError the cube that
     cannot be read.  A relative path starts from `folder`."""
-    solid = _cubed(members, folder) if "cube" in members else _procedural(members)
+    bare = _cubed(members, folder) if "cube" in members else _procedural(members)
+    solid = _touched(bare, members, touches) if "touches" in members else bare
     normal = members.integers("normal", 3, (0, 0, 1), limit=STEEPEST)
     if not any(normal):
         raise members.fault("normal", "three whole numbers that are not all 0")
     depth = members.number("depth", 0.0, lo=-1e6, hi=1e6)
     return Slice(solid, normal, depth, members.integer("unit", 256, lo=_UNITS[0], hi=_UNITS[1]))
+
+
+def _touched(bare: Lookup, members: Fields, touches: Touches) -> Touched:
+    name = members.text("touches")
+    if name not in touches:
+        raise members.fault("touches", "the name of a solid that was painted on")
+    return Touched(bare, touches[name], VOXELS)
 
 
 def _cubed(members: Fields, folder: Path | None) -> Cubed:

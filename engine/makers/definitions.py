@@ -89,7 +89,7 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
 _NAMING = frozenset(
     (
         *("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field"),
-        *("bundled", "mask", "mask_strokes", "region", "params", "material", "cube", "step"),
+        *("bundled", "mask", "mask_strokes", "region", "params", "material", "cube", "step", "touches"),
     )
 )
 _MISSING = object()
@@ -118,7 +118,11 @@ def _reachable(value: Any) -> bool:
     if not isinstance(value, Mapping):
         return True
     paths = [part for key, part in value.items() if _is_path(key, part)]
-    return "rect" not in value and all(Path(path).is_absolute() for path in paths) and _reachable(tuple(value.values()))
+    return (
+        not {"rect", "touches"} & set(value)
+        and all(Path(path).is_absolute() for path in paths)
+        and _reachable(tuple(value.values()))
+    )
 
 
 def named_files(command: DefineTexture) -> tuple[str, ...]:

@@ -76,7 +76,7 @@ def _sampled(make: lewis.Maker, command: DefineTexture, root: Group, around: Aro
         raise members.fault("field", f"one of {', '.join(FIELDS)}")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:
-        sample = make(members, PictureSource(around.folder, root, around.pictures, around.arithmetic))
+        sample = make(members, PictureSource(around.folder, root, around.pictures, around.arithmetic, around.touches))
         parameters = sample.found.update(parameters)
         rgba = sample.rgba
         if field == "tile" and rgba.shape[2] < NARROWEST:

@@ -25,6 +25,7 @@ from engine.numeric.grid import snapped
 from engine.numeric.parted import Raster, Room
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.grown import settled_alone, settled_root
+from engine.painting.layering.touch_command import NO_TOUCHES, Touches
 from engine.painting.rendering import strips
 from engine.texture.image import ImageSource
 from engine.texture.raster import planes_of, put_plainly
@@ -39,12 +40,13 @@ _NO_PICTURES: Map[str, ImageSource] = Map()
 @dataclass(frozen=True, slots=True)
 class PictureSource:
     """Where pictures come from: files, paths starting from a folder; the canvas; those known by their sha.
-    `arithmetic`: in which what is made of them is worked out."""
+    `arithmetic`: in which what is made of them is worked out; `touches`: what is painted on solids."""
 
     folder: Path | None
     root: Group
     pictures: Mapping[str, ImageSource] = _NO_PICTURES
     arithmetic: int = LIBRARY
+    touches: Touches = NO_TOUCHES
 
     def picture(self, members: Fields) -> np.ndarray:
         """Returns the picture that `path`, or else `rect` and `layer`, name: premultiplied RGBA, float32 (4, h, w)."""

@@ -55,6 +55,9 @@ from engine.painting.layering.paste_commands import CutPaint as CutPaint
 from engine.painting.layering.paste_commands import PastePaint as PastePaint
 from engine.painting.layering.placing_members import Placing as Placing
 from engine.painting.layering.placing_members import Same as Same
+from engine.painting.layering.touch_command import CleanSolid as CleanSolid
+from engine.painting.layering.touch_command import Touch as Touch
+from engine.painting.layering.touch_command import read_touch, write_touch
 from engine.painting.places import LEVEL_LIMIT as LEVEL_LIMIT
 from engine.painting.places import PLACE_LIMIT as PLACE_LIMIT
 from engine.painting.places import Bookmark as Bookmark
@@ -145,6 +148,8 @@ Command = (
     | SetPaper
     | Erode
     | LayGround
+    | Touch
+    | CleanSolid
     | Undo
     | Redo
     | View
@@ -264,6 +269,7 @@ COMMANDS: dict[str, Form] = {
     "paper": Form((SetPaper,), read_set_paper, write_set_paper),
     "erode": Form((Erode,), read_erode, write_erode),
     "ground": Form((LayGround,), read_ground, write_ground),
+    "touch": Form((Touch, CleanSolid), read_touch, write_touch),
     "undo": Form((Undo,), _reads_count(Undo), _write_count),
     "redo": Form((Redo,), _reads_count(Redo), _write_count),
     "view": Form((View,), places.read_view, places.write_view),

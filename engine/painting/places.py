@@ -175,3 +175,19 @@ def _pair(
     if not all(bounds[0] <= v <= bounds[1] for v in value):
         raise members.fault(name, "numbers that are not negative" if min(value) < bounds[0] == 0 else "smaller numbers")
     return (value[0], value[1])
+
+
+def read_bookmarks(value: object) -> tuple[Bookmarks, list[str]]:
+    """Returns the bookmarks of a file that can be read, and a line for each that cannot: no paint hangs on them."""
+    bookmarks, notes = NO_BOOKMARKS, list[str]()
+    for i, told in enumerate(value if isinstance(value, list) else [value]):
+        try:
+            command = read_bookmark(Fields(told, f"bookmarks[{i}]"))
+            if not isinstance(command, Bookmark) or command.name in bookmarks:
+                raise FieldError(
+                    f"bookmarks[{i}]", "no place or a name that is taken", "a place with a name of its own"
+                )
+            bookmarks = bookmarks_after(bookmarks, command)
+        except FieldError as error:
+            notes.append(f"a bookmark is left out: {error}")
+    return bookmarks, notes

@@ -44,6 +44,7 @@ from engine.painting.layering.erode_command import Erode
 from engine.painting.layering.frame_command import SetFrame
 from engine.painting.layering.ground_command import LayGround, in_full
 from engine.painting.layering.paper_command import SetPaper, read_colour
+from engine.painting.layering.touch_command import TouchCommand
 from engine.painting.places import BookmarkCommand
 from engine.painting.points import ALWAYS
 
@@ -56,7 +57,7 @@ TELL_LINES, TELL_BYTES = 4096, 1 << 20  # from one word about how far it is to t
 SIDE_LIMIT = 1 << 40
 DEFAULT_FRAME = Rect(0, 0, 1024, 768)
 BytesRead = Callable[[int], object] | None
-_OF_VERSION_2 = SetFrame | SetPaper | Erode | LayGround | BookmarkCommand | Fill | Select | GuideCommand
+_OF_VERSION_2 = SetFrame | SetPaper | Erode | LayGround | BookmarkCommand | Fill | Select | GuideCommand | TouchCommand
 _BOM = b"\xef\xbb\xbf"
 T = TypeVar("T")
 

@@ -13,6 +13,7 @@ from immutables import Map
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.arithmetic import LIBRARY
 from engine.painting.commands import DefineTexture
+from engine.painting.layering.touch_command import NO_TOUCHES, Touches
 from engine.texture.image import ImageSource
 from engine.texture.record import Instance
 from engine.texture.table import KINDS, instance
@@ -48,12 +49,13 @@ def built_in(arithmetic: int) -> Map[str, Texture]:
 @dataclass(frozen=True, slots=True)
 class Around:
     """What carrying out a command may use besides the painting: a cache of tiles, the folder that paths start from, and
-    pictures that are known already, by their sha; `arithmetic`: the painting's."""
+    pictures that are known already, by their sha; `arithmetic`: the painting's; `touches`: its paint on solids."""
 
     cache: TileCache | None = None
     folder: Path | None = None
     pictures: Mapping[str, ImageSource] = Map()
     arithmetic: int = LIBRARY
+    touches: Touches = NO_TOUCHES
 
 
 def recorded(command: DefineTexture, texture: Texture) -> DefineTexture:

@@ -15,6 +15,7 @@ from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE, LIBRARY
 from engine.painting.commands import Same
 from engine.painting.guiding.guides import NO_GUIDES, Guides
+from engine.painting.layering.touch_command import NO_TOUCHES, Touches
 from engine.painting.places import NO_BOOKMARKS, Bookmarks
 from engine.painting.recording import DEFAULT_FRAME, Header
 from engine.painting.textures import Texture, built_in
@@ -46,7 +47,7 @@ class Painting:
     `arithmetic`: in which its pixels are worked out, that of its recording; `grid`: on which the values of its layers
     lie, by its bits, for as long as it lives; `selection`: what strokes are limited to, None for nothing in particular;
     `selections`: those kept by name; `guides`: what one draws by, by name; `copied`: what was copied last, to be
-    pasted, which is in no file.
+    pasted, which is in no file; `touches`: what was painted on solids, by their names.
 
     The textures, the bookmarks and what was copied are beside the steps: they stay as they are when steps are taken
     back, or done again."""
@@ -64,6 +65,7 @@ class Painting:
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
     begun: Beginning | None = None
     copied: Layer | None = None
+    touches: Touches = NO_TOUCHES
 
     def beside(self, other: Painting) -> Painting:
         """Returns the painting with what another has beside the steps."""

@@ -20,6 +20,7 @@ from engine.checks.roles import AS_HEIGHT, COPIED
 from engine.makers.makers import define
 from engine.painting import commands as c
 from engine.painting.guiding.guides import GuideCommand, guides_after
+from engine.painting.layering.touch_command import TouchCommand, touches_after
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
@@ -238,7 +239,8 @@ def _all_or_part_moved(painting: Painting, node: Node, command: c.SetLayer) -> P
 
 
 def _texture(painting: Painting, command: c.DefineTexture, around: Around) -> Painting:
-    texture = define(command, painting.root, replace(around, arithmetic=painting.arithmetic))
+    within = replace(around, arithmetic=painting.arithmetic, touches=painting.touches)
+    texture = define(command, painting.root, within)
     return replace(painting, textures=painting.textures.set(command.name, texture))
 
 
@@ -248,6 +250,10 @@ def _bookmark(painting: Painting, command: BookmarkCommand, around: Around) -> P
 
 def _choose(painting: Painting, command: c.Select, around: Around) -> Painting:
     return selected(painting, command)
+
+
+def _touch(painting: Painting, command: TouchCommand, around: Around) -> Painting:
+    return replace(painting, touches=touches_after(painting.touches, command))
 
 
 def _guide(painting: Painting, command: GuideCommand, around: Around) -> Painting:
@@ -284,6 +290,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Select: _choose,
     **dict.fromkeys(_BOOKMARKS, _bookmark),
     **dict.fromkeys(c.COMMANDS["guide"].records, _guide),
+    **dict.fromkeys(c.COMMANDS["touch"].records, _touch),
 }
 # The commands that undo takes back.  Choosing a layer is no step, nor is copying from one; nor is defining a texture:
 # strokes keep the one they had.

@@ -180,5 +180,6 @@ class Easel(Owned):
             bookmarks=tuple(painting.bookmarks.values()),
             guides=tuple(painting.guides.values()),
             grid=painting.grid,
+            touches=painting.touches,
         )
         self.send(scene)

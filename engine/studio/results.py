@@ -14,6 +14,7 @@ import numpy as np
 
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE
+from engine.painting.layering.touch_command import NO_TOUCHES, Touches
 from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
 from engine.studio.held.held_records import Held
@@ -96,6 +97,7 @@ class Scene:
     bookmarks: tuple[Bookmark, ...] = ()  # in the order in which they were made
     guides: tuple[Guide, ...] = ()  # and so are these
     grid: int = FINE  # on which its values lie
+    touches: Touches = NO_TOUCHES  # what is painted on solids, by their names
 
 
 @dataclass(frozen=True, slots=True)

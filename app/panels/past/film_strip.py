@@ -30,6 +30,7 @@ _ICONS = {
     "placement": icons.LINK,
     "frame": icons.AREA,
     "guide": icons.GUIDES,
+    "solid": icons.SOLID,
     "layer": icons.LAYERS,
 }
 

@@ -52,6 +52,8 @@ _SIGNS: dict[type, str] = {
     c.SetFrame: "frame",
     c.Guide: "guide",
     c.RemoveGuide: "guide",
+    c.Touch: "solid",
+    c.CleanSolid: "solid",
 }
 
 
@@ -78,10 +80,8 @@ def _title(command: c.Command) -> str:
             return f"Show again: “{name}”"
         case c.AddPicture(name=name) | c.AddPictures(name=name) | c.AddPainting(name=name):
             return f"Bring in “{name}”"
-        case c.BakePlacement(name=name):
-            return f"Make paint of “{name}”"
-        case c.MergeLayer(name=name):
-            return f"Merge “{name}” down"
+        case c.BakePlacement(name=name) | c.MergeLayer(name=name):
+            return f"Make paint of “{name}”" if isinstance(command, c.BakePlacement) else f"Merge “{name}” down"
         case c.FlattenGroup(name=name):
             return "Merge visible" if name is None else f"Merge group “{name}”"
         case c.ClearLayer(name=name, outside=outside):
@@ -107,6 +107,8 @@ def _title(command: c.Command) -> str:
             return _selecting(command)
         case c.Guide(name=name) | c.RemoveGuide(name=name):
             return f"Guide “{name}”" if isinstance(command, c.Guide) else f"No guide “{name}”"
+        case c.Touch(solid=solid) | c.CleanSolid(solid=solid):
+            return f"Paint on “{solid}”" if isinstance(command, c.Touch) else f"Clean “{solid}”"
         case c.Swap(example=example):
             return f"Swap for {example}"
     return type(command).__name__
