@@ -10,8 +10,9 @@ import moderngl
 
 from app.canvas.gallery import Gallery
 from app.canvas.shader_files import shader_source
-from app.desk.solids.solid_state import SMALLEST_ROOM, AtRest, Carved, SolidState, turned_by
-from app.desk.solids.solid_work import BEHIND, NEARNESS
+from app.desk.solids.shown_solid import NEARNESS, AtRest, Carved, turned_by
+from app.desk.solids.solid_state import SMALLEST_ROOM, SolidState
+from app.desk.solids.solid_work import BEHIND
 from engine.numeric.address import Rect
 
 _SAMPLES = 4

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from app.cli import match_command
 from app.cli.arguments import seed, size
 from app.cli.outcome import DONE, Refused
-from app.cli.output import checked_output
+from app.cli.output import checked_output, opened_painting
 from app.cli.progress import Progress
 
 if TYPE_CHECKING:
@@ -63,6 +63,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help=f"of a mesh at most; the more, the finer its colours (default {ENOUGH})",
     )
+    parser.add_argument("--touches", metavar="P.ora", help="with what is painted in it on the solid of this name")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
@@ -200,4 +201,20 @@ def _body(options: argparse.Namespace) -> Body:
     from engine.solids.solid_rendering import Body, turning
 
     mesh = _object(options.on)
-    return Body(mesh, _solid(options), turning(*options.turn), scale=options.scale).standing()
+    return Body(mesh, _touched(_solid(options), options), turning(*options.turn), scale=options.scale).standing()
+
+
+def _touched(solid: Lookup, options: argparse.Namespace) -> Lookup:
+    """The solid with what is painted on it in a painting."""
+    if options.touches is None:
+        return solid
+    if options.map:
+        raise Refused("--touches: found it with --map, expected a solid")
+    from engine.painting.layering.touch_command import VOXELS
+    from engine.solids.painted.touching import Touched
+
+    name = os.path.splitext(os.path.basename(options.solid))[0]
+    strokes = opened_painting(options.touches).painting.touches.get(name)
+    if strokes is None:
+        raise Refused(f"--touches: found no paint on {name[:80]!a} in {options.touches}, expected some")
+    return Touched(solid, strokes, VOXELS)

@@ -9,7 +9,8 @@ from PIL import Image
 
 from app.desk.solids import cube_work
 from app.desk.solids.cube_work import ListCubes, bring_cube
-from app.desk.solids.solid_state import OBJECTS, SolidState, turned_by
+from app.desk.solids.shown_solid import turned_by
+from app.desk.solids.solid_state import OBJECTS, SolidState
 from app.desk.solids.solid_work import BEHIND, Carve, Rest, pictures_at_rest
 from app.panels.solids.solid_panel import SolidPanel
 from engine.files.fault import FileError
@@ -70,6 +71,7 @@ class _Desk:
 
     def __init__(self, state, patience=10_000):
         self.solid, self.strip, self.told, self.patience = state, "solid", [], patience
+        self.known = SimpleNamespace(scene=None)
 
     def work(self, work):
         self.patience -= 1

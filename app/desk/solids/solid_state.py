@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import PurePath
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.desk.solids.shown_solid import Aspect, AtRest, Carved, Made, turned_by
+
 if TYPE_CHECKING:
-    from engine.solids.solid_lookup import Lookup
+    from app.desk.solids.touching_up import TouchUp
+    from engine.painting.layering.touch_command import Touch
 
 OBJECTS = ("sphere", "cube", "torus", "vase", "teapot", "knot", "bust")
 USUAL_OBJECT, USUAL_MATERIAL = "teapot", "agate"
@@ -17,41 +21,6 @@ FIRST_SIDE, LAST_SIDE = 48, 96  # voxels of the cube that is shown at once, and 
 SMALLEST_ROOM = 8  # pixels of a picture that is worth drawing
 _STEEP = 2  # of a slice's normal, in whole numbers
 _MOST_TILT = 100.0
-
-Made = tuple[str, int, tuple[tuple[str, float], ...]]  # a material, or a cube's path; its seed; values of sliders
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Carved:
-    """What there is to show: `solid`: what was `made`; `cube`: uint8 (z, y, x, 3) of it, the `whole` of it if there are
-    no finer ones; `corners`: float32 (V, 6), places and normals of the object `name`; `faces`: int32 (F, 3); `fewer`:
-    of those that are drawn while it turns."""
-
-    made: Made
-    solid: Lookup
-    cube: np.ndarray
-    whole: bool
-    name: str
-    corners: np.ndarray
-    faces: np.ndarray
-    fewer: np.ndarray
-
-
-class Aspect(NamedTuple):
-    """Which object is seen, in how many pixels, how it is turned, and the scale of the solid."""
-
-    carved: Carved
-    room: tuple[int, int]
-    turn: tuple[float, float]
-    scale: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AtRest:
-    """An object as it was seen while it rested, with all that the solid has of detail: uint8 (h, w, 3)."""
-
-    of: Aspect
-    pixels: np.ndarray
 
 
 @dataclass(slots=True)
@@ -67,7 +36,8 @@ class SolidState:
     the upright axis, and forwards; `scale`: of the solid; `depth`: of the slice that becomes ink; `room`: pixels of the
     picture; `turning`: by hand, right now; `busy`: something is being carved; `awaited`: the texture that is to be ink;
     `rest`: what is seen at rest; `resting`: of what that is being made; `cubes`: paths of those that are kept, None
-    while nobody has looked; `growing`: the cube that grows."""
+    while nobody has looked; `growing`: the cube that grows; `corner`: of the picture, on the screen; `touches`: what is
+    painted on the solid; `painting`: the pen paints on it; `stroke`: the one that is being painted."""
 
     material: str = USUAL_MATERIAL
     name: str = USUAL_OBJECT
@@ -85,11 +55,20 @@ class SolidState:
     resting: Aspect | None = None
     cubes: tuple[str, ...] | None = None
     growing: Growth | None = None
+    corner: tuple[float, float] = (0.0, 0.0)
+    touches: tuple[Touch, ...] = ()
+    painting: bool = False
+    stroke: TouchUp | None = None
 
     @property
     def made(self) -> Made:
         """Returns the material as it is set."""
         return self.material, self.seed, tuple(sorted(self.values.get(self.material, {}).items()))
+
+    @property
+    def solid_name(self) -> str:
+        """Gives the name under which a painting keeps what is painted on the solid: whatever its sliders say."""
+        return PurePath(self.material).stem
 
     def set(self, slider: str, value: float) -> None:
         """Sets a slider of the material."""
@@ -104,16 +83,21 @@ class SolidState:
     def lacks(self) -> int:
         """Returns the side of the cube that is to be carved next; 0 if what is shown is what is set."""
         held = self.carved
-        if held is None or (held.made, held.name) != (self.made, self.name):
+        if held is None or (held.made, held.name, held.touches) != (self.made, self.name, self.touches):
             return FIRST_SIDE if held is None or held.made != self.made else len(held.cube)
         return 0 if held.whole else LAST_SIDE
 
     @property
-    def seen(self) -> Aspect | None:
-        """Returns what is seen while it rests; None while it is turned, or something finer is carved."""
-        if self.carved is None or self.turning or self.lacks or min(self.room) < SMALLEST_ROOM:
+    def aspect(self) -> Aspect | None:
+        """Returns what is seen of the object, finished or not."""
+        if self.carved is None or min(self.room) < SMALLEST_ROOM:
             return None
         return Aspect(self.carved, self.room, self.turn, self.scale)
+
+    @property
+    def seen(self) -> Aspect | None:
+        """Returns what is seen while it rests; None while it is turned, or something finer is carved."""
+        return None if self.turning or self.stroke is not None or self.lacks else self.aspect
 
     def normal(self) -> tuple[int, int, int]:
         """Returns the direction of small whole numbers, within the object, that looks most towards the eye."""
@@ -128,13 +112,3 @@ def _along(normal: tuple[int, ...], towards: np.ndarray) -> float:
     given = np.array(normal, float)
     length = float(np.sqrt((given * given).sum()))
     return round(float((given * towards).sum()) / length, 6) - 1e-9 * length
-
-
-def turned_by(about: float, tilt: float) -> np.ndarray:
-    """Returns what turns an object, z upwards, for an eye that looks along -z and has y above: (3, 3)."""
-    a, b = np.radians((about, tilt))
-    first = np.array(((np.cos(a), -np.sin(a), 0.0), (np.sin(a), np.cos(a), 0.0), (0.0, 0.0, 1.0)))
-    upright = np.array(((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)))
-    forwards = np.array(((1.0, 0.0, 0.0), (0.0, np.cos(b), -np.sin(b)), (0.0, np.sin(b), np.cos(b))))
-    out: np.ndarray = forwards @ upright @ first
-    return out

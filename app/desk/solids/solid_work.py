@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.desk.desk import Desk, FileWork
-from app.desk.solids.solid_state import LAST_SIDE, USUAL_MATERIAL, USUAL_OBJECT, Aspect, AtRest, Carved, Made
+from app.desk.solids.painted_cube import as_bytes, painted_cube, painted_on, voxel_middles
+from app.desk.solids.shown_solid import NEARNESS, Aspect, AtRest, Carved, Made
+from app.desk.solids.solid_state import LAST_SIDE, USUAL_MATERIAL, USUAL_OBJECT
 from app.desk.solids.working import for_a_while
 from engine.solids.material_sliders import MATERIALS
 
 if TYPE_CHECKING:
+    from engine.painting.layering.touch_command import Touch
     from engine.solids.solid_lookup import Lookup
 
-NEARNESS = 0.17  # of the picture's half height for a unit, at distance 1
 BEHIND = 0.115, 0.12, 0.125  # behind the object
 _SAMPLES = 1, 3  # a pixel each way, of the first picture at rest and the last
 MOST_TURNING = 24_000  # triangles that are drawn while it turns
@@ -24,13 +26,14 @@ MOST_TURNING = 24_000  # triangles that are drawn while it turns
 
 @dataclass(frozen=True, slots=True)
 class Carve(FileWork):
-    """A cube of `side` voxels of a material, and an object, one of ours or the file of a mesh; what `before` has of
-    both is kept."""
+    """A cube of `side` voxels of a material, with `touches` painted on it, and an object, one of ours or the file of a
+    mesh; what `before` has of all that is kept."""
 
     made: Made
     name: str
     side: int
     before: Carved | None
+    touches: tuple[Touch, ...] = ()
 
     def carry_out(self) -> Carved:
         """Returns both."""
@@ -40,16 +43,17 @@ class Carve(FileWork):
 
         held = self.before
         if held is not None and held.made == self.made and (held.whole or len(held.cube) == self.side):
-            solid, cube, whole = held.solid, held.cube, held.whole
+            solid, plain, whole = held.solid, held.plain, held.whole
         else:
-            solid, cube, whole = self._carved()
+            solid, plain, whole = self._carved()
+        solid = painted_on(solid, self.touches)
+        cube = painted_cube(solid, plain, self.touches, held)
         if held is not None and held.name == self.name:
-            return replace(held, made=self.made, solid=solid, cube=cube, whole=whole)
+            return replace(held, made=self.made, solid=solid, plain=plain, touches=self.touches, cube=cube, whole=whole)
         mesh = object_named(self.name) if self.name in OBJECTS else read_mesh(self.name)
         corners = np.concatenate([mesh.points, mesh.normals], axis=1).astype(np.float32)
-        return Carved(
-            self.made, solid, cube, whole, self.name, corners, mesh.faces, fewer_triangles(mesh, MOST_TURNING)
-        )
+        fewer = fewer_triangles(mesh, MOST_TURNING)
+        return Carved(self.made, solid, plain, self.touches, cube, whole, self.name, corners, mesh.faces, fewer)
 
     def _carved(self) -> tuple[Lookup, np.ndarray, bool]:
         """The solid, its voxels, and whether there are no finer ones."""
@@ -61,11 +65,8 @@ class Carve(FileWork):
             voxels = read_cube(material)
             return Cubed(voxels, seed=seed), np.rint(255.0 * voxels).astype(np.uint8), True
         solid = Procedural(material, seed, dict(values))
-        middles = (np.arange(self.side) + 0.5) / self.side
-        z, y, x = np.meshgrid(middles, middles, middles, indexing="ij")
-        places = np.stack([x, y, z], axis=-1).reshape(-1, 3)
-        colours = solid.colours(places, 1.0 / self.side)
-        cube = np.rint(255.0 * np.clip(colours, 0.0, 1.0)).astype(np.uint8).reshape((self.side,) * 3 + (3,))
+        places = voxel_middles((self.side,) * 3)
+        cube = as_bytes(solid.colours(places, 1.0 / self.side)).reshape((self.side,) * 3 + (3,))
         return solid, cube, self.side >= LAST_SIDE
 
     def arrive(self, desk: Desk, found: Carved) -> None:

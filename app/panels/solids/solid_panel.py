@@ -9,15 +9,18 @@ from immutables import Map
 
 from app import icons, theme
 from app.desk.desk import Desk
-from app.desk.hand import go_on_with_brush
+from app.desk.hand import go_on_with_brush, radius_of
 from app.desk.lab_state import with_texture
 from app.desk.outside import pictured
 from app.desk.solids.cube_work import ListCubes
 from app.desk.solids.solid_state import OBJECTS
 from app.desk.solids.solid_work import Carve, Rest, pictures_at_rest
+from app.desk.solids.touching_up import ObjectSeen
 from app.panels.controls import widgets as w
-from app.panels.panel import Panel
+from app.panels.panel import Painting, Panel
+from app.tools.solid_gestures import touch_up
 from engine.painting.commands import DefineTexture
+from engine.painting.layering.touch_command import CleanSolid
 from engine.solids.material_sliders import MATERIALS
 from engine.studio.requests import Do
 
@@ -32,17 +35,29 @@ class SolidPanel(Panel):
 
     def wants(self, desk: Desk, now: float) -> None:
         """Has carved what is set and not yet shown, and drawn what rests."""
-        state = desk.solid
+        state, scene = desk.solid, desk.known.scene
+        if state.stroke is not None:
+            return
+        state.touches = scene.touches.get(state.solid_name, ()) if scene is not None else ()
         side, seen = state.lacks, state.seen
         if state.cubes is None:
             state.cubes = ()
             desk.work(ListCubes())
         if side and not state.busy:
             state.busy = True
-            desk.work(Carve(state.made, state.name, side, state.carved))
+            desk.work(Carve(state.made, state.name, side, state.carved, state.touches))
         elif seen is not None and state.resting is None and (state.rest is None or state.rest.of != seen):
             state.resting = seen
             desk.work(Rest(seen, pictures_at_rest(seen)))
+
+    def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
+        """Returns a stroke on the object; beside it, a drag turns it."""
+        state = desk.solid
+        left, top = state.corner
+        aspect = state.aspect if state.painting else None
+        if aspect is None or not (0.0 <= x - left < state.room[0] and 0.0 <= y - top < state.room[1]):
+            return None
+        return None if ObjectSeen(aspect).hit(x - left, y - top) is None else touch_up
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
@@ -62,9 +77,12 @@ class SolidPanel(Panel):
         state = desk.solid
         state.room = max(1, int(size[0])), max(1, int(size[1]))
         corner = imgui.get_cursor_screen_pos()
-        imgui.invisible_button("object", ImVec2(*size))
+        state.corner = corner.x, corner.y
+        buttons = imgui.ButtonFlags_.mouse_button_left | imgui.ButtonFlags_.mouse_button_right
+        imgui.invisible_button("object", ImVec2(*size), buttons)
         w.named("object")
-        w.tooltip("Drag to turn it; the wheel scales the solid")
+        if not state.painting:
+            w.tooltip("Drag to turn it; the wheel scales the solid")
         state.turning = imgui.is_item_active()
         if state.turning:
             moved = imgui.get_io().mouse_delta
@@ -77,11 +95,27 @@ class SolidPanel(Panel):
         shown = desk.pictures.get("solid")
         if shown is not None and state.carved is not None:
             painter.add_image(shown, corner, ImVec2(corner.x + state.room[0], corner.y + state.room[1]))
+        if state.painting and (imgui.is_item_hovered() or state.stroke is not None):
+            at, radius = imgui.get_io().mouse_pos, max(radius_of(desk.hand, desk.pointer.eraser), 1.5)
+            painter.add_circle(at, radius + 1.0, theme.packed((0.0, 0.0, 0.0)), 0, 1.0)
+            painter.add_circle(at, radius, theme.packed((1.0, 1.0, 1.0)), 0, 1.0)
         if state.lacks or state.growing is not None:
             grown = f"{icons.WAIT} growing… {state.growing.done:.0%}" if state.growing is not None else ""
             text = grown or f"{icons.WAIT} carving…"
             at = ImVec2(corner.x + 10 * desk.scale, end.y - 26 * desk.scale)
             painter.add_text(at, theme.packed(theme.QUIET), text)
+
+    def _touches(self, desk: Desk) -> None:
+        """Chooses between turning the object and painting on it; takes the paint off."""
+        state, wide = desk.solid, imgui.get_content_region_avail().x
+        side = imgui.get_frame_height()
+        hint = "The brush paints on the object, into the solid; the right button, or a drag beside it, turns it"
+        if w.lit_button(f"{icons.BRUSH} Paint on it", hint, state.painting, wide - side - 2 * desk.scale):
+            state.painting = not state.painting
+        imgui.same_line(0, 2 * desk.scale)
+        hint = f"Take all paint off the {state.solid_name}; Undo brings it back"
+        if w.icon_button("clean", icons.DELETE, hint, enabled=bool(state.touches), size=side):
+            desk.post(Do(CleanSolid(state.solid_name)))
 
     def _settings(self, desk: Desk) -> None:
         state = desk.solid
@@ -104,6 +138,7 @@ class SolidPanel(Panel):
         carved = state.material in MATERIALS
         if w.icon_button("throw", icons.DICE, "The same from another block", enabled=carved, size=side):
             state.seed = (state.seed * 31 + 17) % 99991
+        self._touches(desk)
         for name, slider in MATERIALS[state.material].sliders.items() if carved else ():
             value = state.values.get(state.material, {}).get(name, slider.usual)
             form = "%.0f" if slider.whole or slider.high >= 20.0 else "%.2f"
@@ -143,6 +178,7 @@ class SolidPanel(Panel):
             named = "material" if material in MATERIALS else "cube"
             given = {named: material, "seed": seed, "normal": state.normal(), "unit": _UNIT}
             given |= {"depth": round(state.depth, 3)} | ({"values": Map(values)} if values else {})
+            given |= {"touches": state.solid_name} if state.touches else {}
             desk.post(Do(DefineTexture(state.awaited, "solid", Map(given))))
 
     def _welcome(self, desk: Desk) -> None:

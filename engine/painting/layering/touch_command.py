@@ -30,7 +30,8 @@ TouchPlace = tuple[float, float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Touch:
-    """Paint on the solid of a name along `points`: x, y, z in voxels, and the pen's pressure.
+    """Paint on the solid of a name along `points`: x, y, z in voxels, and the pen's pressure; `breaks`: the points, by
+    their number, to which no line leads from the one before.
 
     Of the brush its colour, `radius` in voxels, `hardness` and `opacity` count, how these follow the pressure, and the
     mode "erase", which brings back the bare solid.
@@ -39,6 +40,7 @@ class Touch:
     solid: str
     points: tuple[TouchPlace, ...]
     brush: Brush
+    breaks: tuple[int, ...] = ()
     extra: Map[str, Any] = _NOTHING
 
 
@@ -75,7 +77,8 @@ def read_touch(members: Fields) -> TouchCommand:
     brush = settings.from_json(members.take("brush", {}), members.at("brush"))
     if brush.radius > WIDEST_TOUCH:
         raise FieldError(members.at("brush.radius"), f"{brush.radius:g}", f"at most {WIDEST_TOUCH:g} voxels")
-    return Touch(solid, _read_points(members), brush, members.rest())
+    points = _read_points(members)
+    return Touch(solid, points, brush, _read_breaks(members, len(points)), members.rest())
 
 
 def _read_points(members: Fields) -> tuple[TouchPlace, ...]:
@@ -93,13 +96,22 @@ def _read_points(members: Fields) -> tuple[TouchPlace, ...]:
     return tuple(out)
 
 
+def _read_breaks(members: Fields, count: int) -> tuple[int, ...]:
+    told = members.take("breaks", [])
+    sound = isinstance(told, list) and all(type(one) is int and 0 < one < count for one in told)
+    if not sound or sorted(set(told)) != told:
+        raise members.fault("breaks", f"numbers of points from 1 to {count - 1}, each greater than the one before")
+    return tuple(told)
+
+
 def write_touch(command: TouchCommand) -> dict[str, object]:
     """Tells its members; defaults are left out."""
     if isinstance(command, CleanSolid):
         return {"solid": command.solid, "clear": True, **thawed(command.extra)}
     points = [[plain(value) for value in (row[:3] if row[3] == 1.0 else row)] for row in command.points]
     brush = settings.to_json(command.brush)
-    return {"solid": command.solid, "brush": brush, "points": points, **thawed(command.extra)}
+    breaks = {"breaks": list(command.breaks)} if command.breaks else {}
+    return {"solid": command.solid, "brush": brush, "points": points, **breaks, **thawed(command.extra)}
 
 
 def write_touches(touches: Touches) -> list[dict[str, object]]:

@@ -36,6 +36,11 @@ class PaintedStroke(Protocol):
         ...
 
     @property
+    def breaks(self) -> Sequence[int]:
+        """Gives the points to which no line leads."""
+        ...
+
+    @property
     def brush(self) -> Brush:
         """Gives the brush."""
         ...
@@ -66,7 +71,7 @@ def capsules_of(strokes: Sequence[PaintedStroke], voxels: float) -> Capsules:
     rows, colours = [], []
     for number, stroke in enumerate(strokes):
         knots = felt(stroke.brush, np.array(stroke.points, np.float64).reshape(-1, 4), voxels)
-        rows.append(_between_knots(knots, number))
+        rows += [_between_knots(part, number) for part in np.split(knots, list(stroke.breaks))]
         red, green, blue = (int(stroke.brush.colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
         colours.append((red, green, blue, float(stroke.brush.row.takes_away)))
     every = np.concatenate(rows)
@@ -105,6 +110,12 @@ class Touched:
     def gloss(self) -> float:
         """As the bare solid."""
         return self.bare.gloss
+
+    def cells(self) -> np.ndarray:
+        """Tells which parts of the solid the strokes may reach: bool (n, n, n), z first."""
+        starts = self._capsules.starts
+        out: np.ndarray = (starts[1:] > starts[:-1]).reshape((_CELLS,) * 3)
+        return out
 
     @cached_property
     def _capsules(self) -> Capsules:

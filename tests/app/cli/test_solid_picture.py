@@ -75,6 +75,20 @@ def test_a_cube_is_the_same_from_an_array_slices_and_their_picture(tmp_path):
     assert np.array_equal(seen[0], seen[2])
 
 
+def test_an_object_shows_what_was_painted_on_its_solid(tmp_path, capsys):
+    red = {"do": "touch", "solid": "marble", "points": [[128, 128, 128]], "brush": {"radius": 96, "colour": "#ff0000"}}
+    lines = [{"inkfall": 2, "frame": [0, 0, 64, 64], "seed": 1}, red]
+    (tmp_path / "r.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
+    (tmp_path / "m.obj").write_text(BOX)
+    painting, out = tmp_path / "p.ora", tmp_path / "o.png"
+    assert main(["play", str(tmp_path / "r.jsonl"), "--save", str(painting)]) == 0
+    words = ["--on", str(tmp_path / "m.obj"), "--scale", "0.2", "--touches", str(painting), *SMALL]
+    assert main(["solid", "marble", str(out), *words]) == 0
+    middle = pixels(out).astype(int)[18, 24]
+    assert middle[0] > 3 * middle[1]
+    assert "no paint" in refused(capsys, "solid", "wood", str(out), *words)
+
+
 def test_a_mesh_in_the_colours_of_the_solid(tmp_path, capsys):
     """Read back: turned, closed, upright, and at each corner the solid's colour as linear light."""
     (tmp_path / "m.obj").write_text(BOX)

@@ -60,7 +60,7 @@ SAMPLES = {
     c.LayGround: c.LayGround(
         "grit", Rect.at(-9, 1 << 70, 40, 30), 3, "sky", (-4.5, 60.0), (0, 9.25), 0.5, 0.9, 7.5, 9, MORE
     ),
-    c.Touch: c.Touch("agate", ((1.5, -2.0, 300.25, 0.5), (9.0, 8.0, 7.0, 1.0)), Brush(radius=9.5), MORE),
+    c.Touch: c.Touch("agate", ((1.5, -2.0, 300.25, 0.5), (9.0, 8.0, 7.0, 1.0)), Brush(radius=9.5), (1,), MORE),
     c.CleanSolid: c.CleanSolid("agate", MORE),
     c.ClearLayer: c.ClearLayer("sky"),
     c.SelectLayer: c.SelectLayer("sky"),

@@ -93,6 +93,17 @@ def test_pressure_tells_what_the_brush_follows():
     assert found[1].tolist() == [0.5, 0.5, 0.5]
 
 
+def test_a_stroke_may_be_broken():
+    line, dots = (
+        _stroke((20, 30, 40), (120, 30, 40)),
+        Touch("a", ((20, 30, 40, 1), (120, 30, 40, 1)), Brush(radius=12), (1,)),
+    )
+    middle = np.array([[70.0, 30.0, 40.0], [20.0, 30.0, 40.0]]) / VOXELS
+    assert _painted(line).colours(middle, 0.001)[:, 0].tolist() == [1.0, 1.0]
+    assert _painted(dots).colours(middle, 0.001)[:, 0].tolist() == [0.5, 0.0]
+    assert _painted(dots).cells().sum() < _painted(line).cells().sum()
+
+
 TOUCH = {"do": "touch", "solid": "agate", "points": [[128, 20.5, 30], [140, 20, 30, 0.5]], "brush": {"radius": 9}}
 CUT = {"do": "texture", "maker": "solid", "material": "agate", "unit": 32, "depth": 0.12}
 
@@ -156,6 +167,8 @@ def test_what_cannot_be_done_is_refused(command, told):
         {"points": [[1, 2, 1e9]]},
         {"brush": {"radius": 97}},
         {"solid": 3},
+        {"breaks": [2]},
+        {"breaks": [0]},
     ],
 )
 def test_what_is_wrong_with_a_stroke_is_named(wrong):
