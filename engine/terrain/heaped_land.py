@@ -28,10 +28,10 @@ def heaped_heights(
     return out
 
 
-def heap_told(heap: Pyramid, level: int, rect: Rect) -> np.ndarray:
+def heap_told(heap: Pyramid, level: int, rect: Rect, cache: TileCache | None = None) -> np.ndarray:
     """Returns what lies in a heap down to level 32, in its unit, as the land has it, which does not round on the way
     down as the canvas does: float64 (h, w)."""
-    seen = layer_brightness(_sheet(heap), level, rect)
+    seen = layer_brightness(_sheet(heap), level, rect, (), cache)
     return seen.fine + seen.still
 
 

@@ -6,7 +6,7 @@ Sums, products, quotients and roots alone, in one order: the same bits everywher
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +15,7 @@ from engine.numeric.address import Rect
 from engine.terrain.layer_heights import expanded
 
 _SPREAD = 3  # halvings of how rough it is, so that this is a matter of 8 pixels around
+_AT_ONCE = 1 << 8  # rows of a map, an even number: the temporary arrays of a whole one take much memory
 _SMALLEST = 4  # pixels of a side from which on it may be halved
 
 
@@ -53,7 +54,7 @@ def _doubled(values: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
 def roughness_of(heights: np.ndarray) -> np.ndarray:
     """Returns how much heights (h, w) vary, around each place, at twice the size of a pixel, where enlarged maps still
     tell the truth: the standard deviation of that octave, float64 (half the size)."""
-    half = _halved(heights)
+    half = np.concatenate([_halved(heights[top : top + _AT_ONCE]) for top in range(0, len(heights), _AT_ONCE)])
     if min(half.shape) < _SMALLEST:
         return np.zeros_like(half)
     octave = half - _doubled(_halved(half), half.shape)
@@ -116,6 +117,12 @@ class FittedMap:
         """Gives the most of it at any place of the map."""
         return float(self._roughness.max())
 
+    def roughness_alone(self) -> FittedMap:
+        """Returns a map that tells how rough this one is, without its heights, which take much memory."""
+        out = replace(self, heights=np.broadcast_to(np.float64(0.0), self.heights.shape))
+        out.__dict__["_roughness"] = self._roughness
+        return out
+
     @cached_property
     def _roughness(self) -> np.ndarray:
         return roughness_of(self.heights)
@@ -160,6 +167,9 @@ def _between(values: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.nd
 def _along(values: np.ndarray, places: np.ndarray) -> np.ndarray:
     low = np.floor(places)
     t, first = (places - low)[:, None], low.astype(np.int64)
+    if not t.any():  # a pixel for each of the map's: what the weights come to
+        there: np.ndarray = values[np.clip(first, 0, len(values) - 1)]
+        return there
     weights = (
         ((2.0 - t) * t - 1.0) * t * 0.5,
         ((3.0 * t - 5.0) * t * t + 2.0) * 0.5,

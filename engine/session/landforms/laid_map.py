@@ -13,10 +13,11 @@ from engine.canvas import layers
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import evaluate
 from engine.canvas.heaps.heaping import amplitude_of, room_left
-from engine.canvas.heaps.heaps import MOST_HEAPED, MOST_INK, NO_HEAP, exponent, share
+from engine.canvas.heaps.heaps import MOST_HEAPED, MOST_INK, NO_HEAP, exponent, lies, share
 from engine.canvas.layers import Layer
 from engine.canvas.node_checks import LayerError
 from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import FileError
 from engine.files.layered.whole_file import as_bytes
 from engine.files.spatial.height_map import HeightMap, read_height_map
@@ -42,6 +43,7 @@ _ALPHA = 3
 _FINER = 12  # octaves: the unit of the heap that holds what the grid of the first leaves over
 _PERIOD = 2.0  # pixels of the rock's first octave: the finest that the map itself tells
 _PART = 6  # of the longer side: how high a map is that tells no scale
+_SEEN = 1 << 25  # bytes of tiles that are held while what the first heap leaves over is worked out
 _MOST_LAID = 1 << 26  # pixels that are laid at once
 
 
@@ -50,8 +52,8 @@ class _Laid(OnRect):
     """An edit that adds a map's heights to a heap, and how strong the rock is.
 
     `shares`: units of a pixel of height of the map's level, None where only the rock is laid; `over`: the heap of units
-    2^12 times as large before and after it had its part, where only what that leaves over is laid; `rock`: None where
-    there is none; `strong`: its strength, in units, where the map is as rough as 1.
+    2^12 times as large before and after it had its part, where only what that leaves over is laid; `cache`: by which that
+    is seen; `rock`: None where there is none; `strong`: its strength, in units, where the map is as rough as 1.
     """
 
     fitted: FittedMap
@@ -59,6 +61,7 @@ class _Laid(OnRect):
     over: tuple[Pyramid, Pyramid] | None = None
     rock: Instance | None = None
     strong: float = 0.0
+    cache: TileCache | None = None
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp:
         """Adds to the tile's values, as `Edit.stamp`; never more than a heap holds."""
@@ -78,18 +81,20 @@ class _Laid(OnRect):
         assert self.shares is not None
         laid = self.fitted.at(self.level, part) * self.shares
         if self.over is not None:
-            laid = laid - np.ldexp(_risen(self.over, self.level, part), _FINER)
+            laid = laid - np.ldexp(self._risen(self.over, part), _FINER)
         return snapped(laid.astype(np.float32))
 
+    def _risen(self, heap: tuple[Pyramid, Pyramid], part: Rect) -> np.ndarray:
+        """By how much a heap rose, in its unit: as the land has it as long as that is told from the sea."""
+        told = heap_told if self.level <= DEEP else _as_the_canvas
+        out: np.ndarray = told(heap[1], self.level, part, self.cache)
+        if lies(heap[0], self.level, part):
+            out = out - told(heap[0], self.level, part, self.cache)
+        return out
 
-def _risen(heap: tuple[Pyramid, Pyramid], level: int, part: Rect) -> np.ndarray:
-    """Returns by how much a heap rose, in its unit: as the land has it as long as that is told from the sea."""
-    if level <= DEEP:
-        before, after = (heap_told(one, level, part) for one in heap)
-    else:
-        before, after = (evaluate(one, level, part).data[0].astype(np.float64) for one in heap)
-    out: np.ndarray = after - before
-    return out
+
+def _as_the_canvas(heap: Pyramid, level: int, part: Rect, cache: TileCache | None) -> np.ndarray:
+    return evaluate(heap, level, part, cache).data[0].astype(np.float64)
 
 
 def with_ground(painting: Painting, command: LayGround, around: Around) -> Painting:
@@ -98,16 +103,17 @@ def with_ground(painting: Painting, command: LayGround, around: Around) -> Paint
     if command.level > FINEST_TOLD:
         raise LayerError(f"ground: found level {command.level}, expected at most {FINEST_TOLD}")
     told = map_of(painting.textures.get(command.texture), command.texture)
-    fitted = FittedMap(
-        scaled(filled_in(told.heights), *_scale(told, command)), command.level, command.rect, command.rim
-    )
+    ends, shape = _scale(told, command), told.heights.shape
+    fitted = FittedMap(scaled(filled_in(told.heights), *ends), command.level, command.rect, command.rim)
+    del told  # a large map takes much memory
     level = fitted.own_level
     rect = fitted.rect_at(level)
     if rect.area > _MOST_LAID or rect.empty or level > FINEST_TOLD:
-        size = f"{told.heights.shape[1]} x {told.heights.shape[0]}"
+        size = f"{shape[1]} x {shape[0]}"
         wanted = f"{command.rect.width} x {command.rect.height}"
         raise LayerError(f"ground: found a map of {size} pixels for {wanted}, expected one of about its shape")
-    layer = _with_rock(_with_heights(layer, fitted, level, rect), fitted, level, rect, command, painting.arithmetic)
+    layer, fitted = _with_heights(layer, fitted, level, rect), fitted.roughness_alone()
+    layer = _with_rock(layer, fitted, level, rect, command, painting.arithmetic)
     return replace(painting, root=layers.with_heaps(painting.root, layer.name, layer.heaps))
 
 
@@ -142,10 +148,12 @@ def usual_ends(told: HeightMap, rect: Rect) -> tuple[float, float]:
 
 
 def scaled(heights: np.ndarray, of: tuple[float, float], ends: tuple[float, float]) -> np.ndarray:
-    """Returns heights so that those `of` lie at the ends."""
-    if of[0] == of[1]:
-        return heights - of[0] + ends[0]
-    return (heights - of[0]) * ((ends[1] - ends[0]) / (of[1] - of[0])) + ends[0]
+    """Returns heights, which are written to, so that those `of` lie at the ends."""
+    heights -= of[0]
+    if of[0] != of[1]:
+        heights *= (ends[1] - ends[0]) / (of[1] - of[0])
+    heights += ends[0]
+    return heights
 
 
 def _scale(told: HeightMap, command: LayGround) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -154,14 +162,15 @@ def _scale(told: HeightMap, command: LayGround) -> tuple[tuple[float, float], tu
 
 def _with_heights(layer: Layer, fitted: FittedMap, level: int, rect: Rect) -> Layer:
     """Returns a layer with the heights in two heaps: most of them, and what the grid of the first leaves over."""
-    most = float(np.abs(fitted.heights).max())
+    most = max(-float(fitted.heights.min()), float(fitted.heights.max()))
     if most == 0.0:
         return layer
     unit = exponent(most, fitted.level)
     before = layer.heaps.get(unit, NO_HEAP)
     layer = _heaped(layer, unit, _Laid(level, rect, fitted, share(1.0, fitted.level, unit)))
     over = before, layer.heaps[unit]
-    return _heaped(layer, unit - _FINER, _Laid(level, rect, fitted, share(1.0, fitted.level, unit - _FINER), over))
+    finer, cache = share(1.0, fitted.level, unit - _FINER), TileCache(_SEEN)
+    return _heaped(layer, unit - _FINER, _Laid(level, rect, fitted, finer, over, cache=cache))
 
 
 def _with_rock(layer: Layer, fitted: FittedMap, level: int, rect: Rect, command: LayGround, arithmetic: int) -> Layer:
