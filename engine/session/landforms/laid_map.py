@@ -52,8 +52,8 @@ class _Laid(OnRect):
     """An edit that adds a map's heights to a heap, and how strong the rock is.
 
     `shares`: units of a pixel of height of the map's level, None where only the rock is laid; `over`: the heap of units
-    2^12 times as large before and after it had its part, where only what that leaves over is laid; `cache`: by which that
-    is seen; `rock`: None where there is none; `strong`: its strength, in units, where the map is as rough as 1.
+    2^12 times as large before and after it had its part, where only what that leaves over is laid; `cache`: by which
+    that is seen; `rock`: None where there is none; `strong`: its strength, in units, where the map is as rough as 1.
     """
 
     fitted: FittedMap
@@ -89,7 +89,7 @@ class _Laid(OnRect):
         told = heap_told if self.level <= DEEP else _as_the_canvas
         out: np.ndarray = told(heap[1], self.level, part, self.cache)
         if lies(heap[0], self.level, part):
-            out = out - told(heap[0], self.level, part, self.cache)
+            out -= told(heap[0], self.level, part, self.cache)
         return out
 
 
