@@ -37,6 +37,12 @@ class Material:
         return out
 
 
+# The ways of Heeger & Bergen's section 6, for every material: a solid moved by noise, multiplied by another one, and by
+# a signal of one dimension.
+_WARP = Slider("how far noise bends the whole block", 0.0, 0.0, 1.0)
+_STRATA = Slider("dark layers across the block's upright axis", 0.0, 0.0, 1.0)
+_SPECKLED = {"warp": _WARP, "strata": _STRATA, "speckle": Slider("granite laid over it, as a glaze", 0.0, 0.0, 1.0)}
+_VEINED = {"warp": _WARP, "strata": _STRATA, "cloud": Slider("marble laid over it, as a glaze", 0.0, 0.0, 1.0)}
 _VEINS = Slider("veins in a unit", 1.0, 2.0, 12.0, whole=True)
 MATERIALS: dict[str, Material] = {
     "marble": Material(
@@ -48,6 +54,7 @@ MATERIALS: dict[str, Material] = {
             "sharpness": Slider("how thin they are", 2.0, 14.0, 60.0),
             "gold": Slider("gold in thin veins", 0.0, 0.6, 1.0),
             "green": Slider("0 white, 1 green stone", 0.0, 0.0, 1.0),
+            **_SPECKLED,
         },
     ),
     "wood": Material(
@@ -57,6 +64,7 @@ MATERIALS: dict[str, Material] = {
             "rings": Slider("rings from the axis to the farthest place", 4.0, 26.0, 120.0),
             "bend": Slider("how far noise bends them", 0.0, 1.0, 4.0),
             "fibres": Slider("fibres and pores", 0.0, 1.0, 2.0),
+            **_VEINED,
         },
     ),
     "granite": Material(
@@ -66,11 +74,12 @@ MATERIALS: dict[str, Material] = {
             "grains": Slider("grains in a unit", 4.0, 28.0, 120.0, whole=True),
             "pink": Slider("how much feldspar", 0.0, 0.5, 1.0),
             "mica": Slider("how much mica", 0.0, 0.5, 1.0),
+            **_VEINED,
         },
     ),
     "agate": Material(
         "bands of a one-dimensional signal around hollows",
         0.85,
-        {"bands": Slider("bands from the rim to the middle of a hollow", 4.0, 22.0, 96.0)},
+        {"bands": Slider("bands from the rim to the middle of a hollow", 4.0, 22.0, 96.0), **_SPECKLED},
     ),
 }

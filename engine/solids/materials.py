@@ -150,10 +150,39 @@ def _agate(seen: Seen, values: Values) -> np.ndarray:
     return _mixed(colour, colour_ramp(facets, ((0.0, "#f7f2f4"), (0.25, "#d8cfdb"), (0.7, "#8d7f9e"))), crystal)
 
 
-COLOURS: dict[str, Callable[[Seen, Values], np.ndarray]] = {
-    "marble": _marble,
-    "wood": _wood,
-    "granite": _granite,
-    "agate": _agate,
+_Colours = Callable[[Seen, Values], np.ndarray]
+_BENT = 0.35  # units: how far noise moves places at most, about
+_LAYERS, _DARKEST = 9, 0.8
+
+
+def _worked(colours: _Colours, other: _Colours, share: str, of_other: Values, bright: float) -> _Colours:
+    """A material that can be bent as a whole, and multiplied by another, made so `bright`, and by a signal along z."""
+
+    def made(seen: Seen, values: Values) -> np.ndarray:
+        there = seen
+        if values["warp"] > 0.0:
+            moved = np.stack([seen.noise(2, 12 + axis, 0.5, 5) for axis in range(3)], axis=-1)
+            there = seen.at(seen.points + _BENT * values["warp"] * moved)
+        out = colours(there, values)
+        if values[share] > 0.0:
+            glaze = np.clip(bright * other(seen, of_other), 0.0, 1.0)
+            out = out * (1.0 + values[share] * (glaze - 1.0))
+        if values["strata"] > 0.0:
+            still = np.full_like(there.points, 0.37)
+            still[:, 2] = there.points[:, 2]
+            signal = _between(-0.35, 0.5, seen.at(still).noise((1, 1, _LAYERS), 15, 0.6, 8))
+            out = out * (1.0 - _DARKEST * values["strata"] * signal)[:, None]
+        return out
+
+    return made
+
+
+_MARBLED = {"veins": 3.0, "turbulence": 1.2, "sharpness": 4.0, "gold": 0.0, "green": 0.0}
+_GRAINED = {"grains": 28.0, "pink": 0.5, "mica": 0.5}
+COLOURS: dict[str, _Colours] = {
+    "marble": _worked(_marble, _granite, "speckle", _GRAINED, 1.6),
+    "wood": _worked(_wood, _marble, "cloud", _MARBLED, 1.05),
+    "granite": _worked(_granite, _marble, "cloud", _MARBLED, 1.05),
+    "agate": _worked(_agate, _granite, "speckle", _GRAINED, 1.6),
 }
 """Of what is seen and the values of all sliders: float64 (N, 3) in 0..1, as a screen shows them."""

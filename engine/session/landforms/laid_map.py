@@ -87,14 +87,15 @@ class _Laid(OnRect):
     def _risen(self, heap: tuple[Pyramid, Pyramid], part: Rect) -> np.ndarray:
         """By how much a heap rose, in its unit: as the land has it as long as that is told from the sea."""
         told = heap_told if self.level <= DEEP else _as_the_canvas
-        out: np.ndarray = told(heap[1], self.level, part, self.cache)
+        after: np.ndarray = told(heap[1], self.level, part, self.cache)
         if lies(heap[0], self.level, part):
-            out -= told(heap[0], self.level, part, self.cache)
-        return out
+            after -= told(heap[0], self.level, part, self.cache)
+        return after
 
 
 def _as_the_canvas(heap: Pyramid, level: int, part: Rect, cache: TileCache | None) -> np.ndarray:
-    return evaluate(heap, level, part, cache).data[0].astype(np.float64)
+    out: np.ndarray = evaluate(heap, level, part, cache).data[0].astype(np.float64)
+    return out
 
 
 def with_ground(painting: Painting, command: LayGround, around: Around) -> Painting:
