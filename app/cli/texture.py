@@ -72,6 +72,10 @@ def run(options: argparse.Namespace) -> int:
         from app.cli.texture_doctor import advice
 
         return advice.run(options.words)
+    if name == "mask":
+        from app.cli import mask_command
+
+        return mask_command.run(options.words)
     if name in MATCHED:
         from app.cli import match_command, solid_command
 
@@ -91,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _known() -> str:
-    return ", ".join((*MAKERS, *MATCHED, "example", "doctor"))
+    return ", ".join((*MAKERS, *MATCHED, "example", "doctor", "mask"))
 
 
 def _parser(name: str) -> Parser:
