@@ -29,6 +29,7 @@ from engine.numeric.functions import functions
 from engine.numeric.wave import UNIT
 from engine.texture.gradient import Gradient
 from engine.texture.image import Cover, Image, picture_pyramid
+from engine.texture.learnt.inks import LearntImage, LearntMatched
 from engine.texture.placed import PlacedInk
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
 from engine.texture.record import Instance
@@ -139,6 +140,21 @@ def _tiled(made: Tiled, level: int, rect: Rect | None = None) -> Bound | None:
         return beyond
     hard, rms = _summed(_tile_steps(made)[max(0, level - made.base) :])
     return Bound(beyond.hard + hard, beyond.rms + rms)
+
+
+@bound.register
+def _learnt_image(made: LearntImage, level: int, rect: Rect | None = None) -> Bound:
+    gone = level - made.base >= made.refinements + made.learning.there
+    return NO_MORE if gone else Bound(1.0, 1.0)
+
+
+@bound.register
+def _learnt_matched(made: LearntMatched, level: int, rect: Rect | None = None) -> Bound | None:
+    last = made.native + made.learning.there
+    beyond = _tiled(made, max(level, last), rect)
+    if beyond is None or level >= last:
+        return beyond
+    return Bound(beyond.hard + 2.0, beyond.rms + 2.0)
 
 
 @lru_cache(maxsize=64)

@@ -79,6 +79,12 @@ def octave_of(source: ImageSource, arithmetic: int = LIBRARY) -> Octave:
     return Octave(tile, slope)
 
 
+def slope_of(picture: np.ndarray, arithmetic: int) -> tuple[int, float]:
+    """Returns the finest level of a picture (C, h, w) that is not blurred away, and the slope from there on."""
+    pattern = analysed(picture, replace(_SHAPE, arithmetic=arithmetic))
+    return measured(pattern) if pattern.shape.levels and pattern.bands else (0, _USUAL)
+
+
 def measured(pattern: Pattern) -> tuple[int, float]:
     """Returns the finest level that is not blurred away, and the slope from there on: amplitude per octave."""
     strengths, arithmetic = _strengths(pattern), pattern.shape.arithmetic

@@ -218,7 +218,7 @@ class Image(_Picture):
     refined: ClassVar[slice] = slice(0, 3)
 
     @property
-    def cover(self) -> Cover | None:
+    def cover(self) -> _Picture | None:
         """Returns what the picture hides, for an ink that lies over another colour; None if it is opaque, and hides
         all."""
         return None if self.source.opaque else Cover(self.base, self.period, self.source)

@@ -6,13 +6,17 @@ triple (red, green, blue amplitude) of ink refers to.
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
 
+if TYPE_CHECKING:
+    from engine.texture.image import ImageSource
+
+LEARNT = "learnt"  # the detail of a texture that is refined by what was learnt of it
 _LASTING = "lasting "
 
 
@@ -61,3 +65,11 @@ class Instance(Protocol):
         A function of level and pixel alone: any rectangle cut from a larger one holds bit-identical values.
         """
         ...
+
+
+def pictures_of(made: Instance) -> tuple[ImageSource, ...]:
+    """Returns the pictures that a texture needs: its own, and what was learnt of that."""
+    while (inner := getattr(made, "inner", None)) is not None:
+        made = inner
+    found = (getattr(made, name, None) for name in ("source", "maps"))
+    return tuple(one for one in found if one is not None)

@@ -16,10 +16,12 @@ from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
 from engine.texture.gradient import gradient, gradient_of_key
 from engine.texture.image import Cover, Image, ImageSource
+from engine.texture.learnt.inks import REFINABLE, learnt
+from engine.texture.learnt.refinement import OCTAVES, Learning
 from engine.texture.matched import Matched, MatchedCover, series, series_cover
 from engine.texture.placed import PlacedInk, similarity_of
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
-from engine.texture.record import Instance, kind_of_key
+from engine.texture.record import LEARNT, Instance, kind_of_key
 from engine.texture.rock import Rock
 from engine.texture.shaped import Shaped
 from engine.texture.spectral import Sparse, Tiled
@@ -101,6 +103,11 @@ _SPARSE = (
     Parameter("turn", 0.0, 0.0, 1.0, "turns", "How far copies are turned at random: 1 is any way round"),
 )
 
+LEARNING = (
+    Parameter("strength", 1.0, 0.0, 1.0, "", "How strong learnt detail below a picture's own pixels is"),
+    Parameter("octaves", OCTAVES, 1, OCTAVES, "", "How many times finer, by halves, learnt detail goes", whole=True),
+)
+
 _ROWS = (
     Kind("white", (), White, "Plain paint of the ink's colour"),
     Kind("rock", _ROCK, Rock, "Noise like rock, finer and finer however far you zoom in", endless=True),
@@ -140,6 +147,7 @@ def instance(
     seed: int,
     source: ImageSource | None = None,
     arithmetic: int = LIBRARY,
+    maps: ImageSource | None = None,
 ) -> Instance:
     """Returns a texture bound to its base level `level`.
 
@@ -165,7 +173,26 @@ def instance(
         return _worked_out(row.make(level, *values), arithmetic, renew)
     if source is None:
         raise TextureError("source", "none", f"a picture for the texture {kind!r}")
-    return _worked_out(row.make(level, *values, source), arithmetic, renew)
+    made = _worked_out(row.make(level, *values, source), arithmetic, renew)
+    return _refined(made, parameters, maps)
+
+
+def refinement(parameters: Mapping[str, Any]) -> tuple[float, int] | None:
+    """Returns how strong learnt detail is, and how many octaves, as parameters tell; None where they ask for none.
+    TextureError names the field."""
+    told = parameters.get("detail")
+    if isinstance(told, int):  # of a piece of the canvas: so many levels of its own
+        told = None
+    if told is not None and told != LEARNT:
+        raise TextureError("detail", described(told), f'"{LEARNT}", or nothing')
+    values = tuple(p.checked(parameters.get(p.name, p.default)) for p in LEARNING)
+    return None if told is None else (float(values[0]), int(values[1]))
+
+
+def _refined(made: Instance, parameters: Mapping[str, Any], maps: ImageSource | None) -> Instance:
+    """Returns a texture refined by what was learnt of it, if there is that."""
+    how = refinement(parameters)
+    return made if how is None or maps is None else learnt(made, Learning(maps, *how))
 
 
 def _renewed(row: Kind, parameters: Mapping[str, object]) -> bool:
@@ -197,6 +224,8 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
         return _shaped_from_key(key, images)
     if key[0] == "placed":
         return _placed_from_key(key, images)
+    if key[0] == LEARNT:
+        return _learnt_from_key(key, images)
     if key[0] in (GRADIENT, GRADIENT_COVER):
         _check_level(key[1])
         return _told(gradient_of_key, key)
@@ -258,6 +287,24 @@ def _placed_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> I
     if (aligned is not None and key[1] < aligned) or key[1] < made.base - shown.levels:
         raise TextureError("level", described(key[1]), "one at which it has whole pixels, not above the texture's own")
     return shown
+
+
+def _learnt_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
+    """Returns a texture with learnt detail: ["learnt", base level, octaves, strength, maps, sha, key]."""
+    inner = key[-1]
+    plain = isinstance(inner, list | tuple) and bool(inner) and isinstance(inner[0], str)
+    if len(key) != 7 or not plain or kind_of_key(inner[0])[0] not in REFINABLE:
+        raise TextureError("key", described(key), '["learnt", base level, octaves, strength, maps, sha, key]')
+    octaves, strength, name, sha = key[2:6]
+    if not (isinstance(name, str) and isinstance(sha, str)):
+        raise TextureError("maps", described(name), "a name, and a sha")
+    made, (strong, many) = from_key(inner, images), LEARNING
+    _check_level(key[1])
+    if made.base != key[1]:
+        raise TextureError("level", described(key[1]), f"{made.base}, that of the texture itself")
+    known = images.get(sha)
+    maps = ImageSource(name, sha, known.pixels if known else None)
+    return learnt(made, Learning(maps, strong.checked(strength), int(many.checked(octaves))))
 
 
 def _curve(value: Any) -> Shape:
