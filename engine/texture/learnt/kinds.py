@@ -26,6 +26,14 @@ def kinds_of(plane: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return kinds, steep
 
 
+def liveliness(steep: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Tells how much noise is due where it is so steep, squared: less, the less steep it is below the first edge, so
+    that what is smooth stays smooth; float32, 0..1."""
+    least = np.float32(edges[0] * edges[0]) + np.float32(1e-20)
+    out: np.ndarray = np.sqrt(np.minimum(steep / least, np.float32(1.0)))
+    return out
+
+
 @kernel
 def _tell_kinds(plane: Array, edges: Array, kinds: Array, steep: Array) -> None:
     height, width = kinds.shape

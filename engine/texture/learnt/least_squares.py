@@ -25,7 +25,7 @@ from engine.numeric.pyramid import reduce
 from engine.numeric.solving import solved
 from engine.numeric.symmetric import eigenvectors, product
 from engine.texture.continuation import slope_of
-from engine.texture.learnt.kinds import LOOKED_ROUND, kinds_of
+from engine.texture.learnt.kinds import LOOKED_ROUND, kinds_of, liveliness
 from engine.texture.learnt.maps import LANES, NEIGHBOURHOODS, NOISY, STEEPS, TAPPED, TAPS, Maps, rounded
 from engine.texture.learnt.refining import along_axes, refined
 
@@ -36,6 +36,7 @@ _LEANING = 300.0  # pixels that the map of all counts for beside those of a kind
 _GRAINS = 120.0  # the same, of what is left over
 _RIDGE = 1e-3  # of a neighbourhood's variance, for plain expansion
 _FEW = 8
+_DULLEST = np.float32(0.2)  # part of the usual noise below which what is left over tells nothing
 _TRIED = 96  # pixels each way on which the strength of what comes out is measured
 _LOUD = 0.65, 0.5  # of the slope, how strong noise is in each octave
 
@@ -109,12 +110,13 @@ def _learnt(parts: Sequence[np.ndarray], axes: np.ndarray) -> Maps:
     ordered = np.sort(np.sqrt(steep))
     edges = rounded(ordered[[int(part * ordered.size) for part in _STEEPER]])
     kinds = np.concatenate([kinds_of(planes[0], edges)[0].reshape(-1) for planes in coarse])
+    lively = np.maximum(liveliness(steep, edges), _DULLEST)
     for axis in range(count):
         seen = [_near(planes[axis], fine[axis]) for planes, fine in zip(coarse, parts, strict=True)]
         near, found = (np.concatenate(one, axis=1) for one in zip(*seen, strict=True))
         left = _learn(near, found, kinds, maps.sharp[:, axis, :, :3])
         size = coarse[0].shape[1] - 2 * LOOKED_ROUND, coarse[0].shape[2] - 2 * LOOKED_ROUND
-        _learn_noise(left.reshape(3, len(parts), *size), kinds, maps.rough[:, axis, :, :3])
+        _learn_noise((left / lively).reshape(3, len(parts), *size), kinds, maps.rough[:, axis, :, :3])
     return replace(maps, edges=edges)
 
 

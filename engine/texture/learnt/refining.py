@@ -9,7 +9,7 @@ import numpy as np
 
 from engine.numeric.hashing import mix64
 from engine.numeric.kernel import Array, inner, kernel
-from engine.texture.learnt.kinds import LOOKED_ROUND, kinds_of
+from engine.texture.learnt.kinds import LOOKED_ROUND, kinds_of, liveliness
 from engine.texture.learnt.maps import NOISY, TAPPED, Maps
 
 _LOW = np.uint64((1 << 21) - 1)
@@ -29,9 +29,10 @@ def refined(planes: np.ndarray, hashes: np.ndarray, maps: Maps, octave: int) -> 
             np.repeat(planes[:, LOOKED_ROUND:-LOOKED_ROUND, LOOKED_ROUND:-LOOKED_ROUND], 2, axis=1), 2, axis=2
         )
         return out
-    kinds, _ = kinds_of(along[0], maps.edges)
+    kinds, steep = kinds_of(along[0], maps.edges)
+    lively = liveliness(steep, maps.edges)
     noise = np.empty((len(along), *hashes.shape, 3), np.float32)
-    _refine(planes, along, kinds, hashes, maps.axes, maps.sharp, maps.rough, maps.loud[octave], noise, out)
+    _refine(planes, along, kinds, lively, hashes, maps.axes, maps.sharp, maps.rough, maps.loud[octave], noise, out)
     return out
 
 
@@ -49,6 +50,7 @@ def _refine(
     planes: Array,
     along: Array,
     kinds: Array,
+    lively: Array,
     hashes: Array,
     axes: Array,
     sharp: Array,
@@ -60,7 +62,7 @@ def _refine(
     count, channels = axes.shape
     height, width = kinds.shape
     _fill_noise(hashes, loud, noise)
-    found, told = np.empty(4, np.float32), np.empty((channels, 4), np.float32)
+    found, told = np.empty((2, 4), np.float32), np.empty((channels, 4), np.float32)
     for y in range(height):
         for x in range(width):
             kind = kinds[y, x]
@@ -68,10 +70,11 @@ def _refine(
                 told[c, 0] = planes[c, y + LOOKED_ROUND, x + LOOKED_ROUND]
                 told[c, 1:] = np.float32(0.0)
             for r in range(count):
-                _differences(along[r], noise[r], sharp[kind, r], rough[kind, r], y, x, found)
+                _differences(along[r], noise[r], sharp[kind, r], rough[kind, r], lively[y, x], y, x, found)
                 for c in range(channels):
                     for n in range(3):
-                        told[c, n + 1] += axes[r, c] * found[n]
+                        seen = found[0, n] if c == 3 else found[0, n] + found[1, n]  # an outline does not fray
+                        told[c, n + 1] += axes[r, c] * seen
             _put(told, out, 2 * y, 2 * x)
 
 
@@ -88,8 +91,10 @@ def _fill_noise(hashes: Array, loud: np.float32, noise: Array) -> None:
 
 
 @inner
-def _differences(plane: Array, noise: Array, sharp: Array, rough: Array, y: int, x: int, out: Array) -> None:
-    """Writes what the finer pixels of one differ by, along one axis of colour."""
+def _differences(
+    plane: Array, noise: Array, sharp: Array, rough: Array, lively: np.float32, y: int, x: int, out: Array
+) -> None:
+    """Writes what the finer pixels of one differ by, along one axis of colour: as is foretold, and by noise."""
     middle = plane[y + LOOKED_ROUND, x + LOOKED_ROUND]
     a = b = c = d = np.float32(0.0)
     for j in range(TAPPED):
@@ -100,15 +105,17 @@ def _differences(plane: Array, noise: Array, sharp: Array, rough: Array, y: int,
             b += value * parts[1]
             c += value * parts[2]
             d += value * parts[3]
+    out[0, 0], out[0, 1], out[0, 2], out[0, 3] = a, b, c, d
+    a = b = c = d = np.float32(0.0)
     for j in range(3):
         random = noise[y + j, x : x + 3].reshape(-1)
         for i in range(NOISY):
-            value, parts = random[i], rough[NOISY * j + i]
+            value, parts = random[i] * lively, rough[NOISY * j + i]
             a += value * parts[0]
             b += value * parts[1]
             c += value * parts[2]
             d += value * parts[3]
-    out[0], out[1], out[2], out[3] = a, b, c, d
+    out[1, 0], out[1, 1], out[1, 2], out[1, 3] = a, b, c, d
 
 
 @inner
