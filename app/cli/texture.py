@@ -76,6 +76,10 @@ def run(options: argparse.Namespace) -> int:
         from app.cli import mask_command
 
         return mask_command.run(options.words)
+    if name == "learn":
+        from app.cli.refining import learn_command
+
+        return learn_command.run(options.words)
     if name in MATCHED:
         from app.cli import match_command, solid_command
 
@@ -95,7 +99,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _known() -> str:
-    return ", ".join((*MAKERS, *MATCHED, "example", "doctor", "mask"))
+    return ", ".join((*MAKERS, *MATCHED, "learn", "example", "doctor", "mask"))
 
 
 def _parser(name: str) -> Parser:

@@ -42,9 +42,10 @@ from engine.painting.value import Painting
 from engine.texture.example import SYNTHESIS
 from engine.texture.image import ImageSource
 from engine.texture.placed import PlacedInk
+from engine.texture.record import pictures_of
 from engine.texture.table import TextureError
 
-FORMAT = 6  # of paintings with selections, references, guides or paper
+FORMAT = 6  # of paintings with selections, references, guides, paper or learnt detail
 PLACED_FORMAT = 5  # of others with placements, or of the grid of 2^-12
 FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examples; 1: no colour left to ink
 MANIFEST = "inkfall/manifest.json"
@@ -53,6 +54,7 @@ RECORDING = "inkfall/recording.jsonl"
 _MOST_NOTES = 20  # lines about bookmarks, guides and the like
 _CONSTANTS = {"byteorder": "little", "tile": TILE, "space": "srgb-premultiplied"}
 _UNIT = "2^-{}"
+Shas = tuple[str | None, str | None, str | None]  # of a texture's picture, its mask, and what was learnt
 
 
 @dataclass(frozen=True)
@@ -88,9 +90,7 @@ class Manifest:
     packs: Mapping[int, tuple[Pack, ...]]
     grounds: Mapping[int, GroundEntry]  # of the layers that began with a picture
     plots: Mapping[int, tuple[PlotEntry, ...]]
-    textures: Mapping[
-        str, tuple[str, Map[str, Any], str | None, str | None]
-    ]  # kind, parameters, sha of picture and mask
+    textures: Mapping[str, tuple[str, Map[str, Any], *Shas]]
     examples: Mapping[str, ExampleEntry] = field(default_factory=dict)
     pictures: Mapping[str, PictureEntry] = field(default_factory=dict)
     members: Mapping[str, tuple[int, str]] = field(default_factory=dict)
@@ -112,8 +112,8 @@ class Manifest:
         for name, (kind, parameters, *shas) in self.textures.items():
             if any(sha is not None and sha not in pictures for sha in shas):
                 raise FieldError(f"textures.{name}", "no picture", "one of those in the file")
-            source, mask = (None if sha is None else replace(pictures[sha], name=name) for sha in shas)
-            made[name] = Texture(kind, parameters, source, mask, self.arithmetic)
+            source, mask, maps = (None if sha is None else replace(pictures[sha], name=name) for sha in shas)
+            made[name] = Texture(kind, parameters, source, mask, self.arithmetic, maps)
             plot_files.check_texture(f"textures.{name}", made[name])
             try:
                 made[name].instance({}, 0, 0)
@@ -167,7 +167,7 @@ def manifest_json(
                 "kind": t.kind,
                 "parameters": thawed(t.parameters),
                 **({"picture": t.source.sha} if t.source is not None else {}),
-                **({"mask": t.mask.sha} if t.mask is not None else {}),
+                **{key: one.sha for key, one in (("mask", t.mask), ("maps", t.maps)) if one is not None},
             }
             for name, t in sorted(painting.textures.items())
         },
@@ -190,13 +190,14 @@ def format_of(painting: Painting) -> int:
     clipped = any(node.clip for node in layers.walk(painting.root))
     wrapped = any(layer.wrap is not None or layer.heaps for layer in layers.layers(painting.root))
     masked = any(True for _ in selection_files.masks_of(painting.root))
-    if any((roles, clipped, wrapped, masked, chosen, painting.guides, painting.touches, painting.paper is not None)):
+    inks = {i for layer in layers.layers(painting.root) for _, one in layer.pyramid.all_records() for i in one.inks}
+    learnt = any(len(pictures_of(ink)) > 1 for ink in inks) or any(t.maps for t in painting.textures.values())
+    beside = painting.guides or painting.touches or painting.paper is not None
+    if any((roles, clipped, wrapped, masked, chosen, learnt, beside)):
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT
-    records = (record for layer in layers.layers(painting.root) for _, record in layer.pyramid.all_records())
-    placed = any(isinstance(ink, PlacedInk) for record in records for ink in record.inks)
-    return PLACED_FORMAT if placed else FINE_FORMAT
+    return PLACED_FORMAT if any(isinstance(ink, PlacedInk) for ink in inks) else FINE_FORMAT
 
 
 def _pack_json(pack: Pack) -> list[Any]:
@@ -367,10 +368,10 @@ def _packs(members: Fields) -> tuple[Pack, ...]:
     return tuple(out)
 
 
-def _texture(value: Any, where: str) -> tuple[str, Map[str, Any], str | None, str | None]:
+def _texture(value: Any, where: str) -> tuple[str, Map[str, Any], *Shas]:
     members = Fields(value, where)
-    parameters = _object(members, "parameters")
-    return members.text("kind"), frozen(parameters), members.text("picture", None), members.text("mask", None)
+    shas = members.text("picture", None), members.text("mask", None), members.text("maps", None)
+    return members.text("kind"), frozen(_object(members, "parameters")), *shas
 
 
 def _picture(sha: str, value: Any) -> PictureEntry:

@@ -19,7 +19,7 @@ from engine.numeric.grid import Q
 from engine.painting.value import Painting
 from engine.texture.image import ImageSource, narrowed
 from engine.texture.raster import row_bands
-from engine.texture.record import Instance
+from engine.texture.record import Instance, pictures_of
 
 
 def sources(painting: Painting) -> dict[str, ImageSource]:
@@ -36,8 +36,8 @@ def sources(painting: Painting) -> dict[str, ImageSource]:
         for pyramid in (layer.pyramid, *layer.heaps.values()):
             for _, record in pyramid.all_records():
                 inks.update(record.inks)
-    named = [source for texture in painting.textures.values() for source in (texture.source, texture.mask)]
-    found = _collected(grown) | _collected(named) | _collected(getattr(ink, "source", None) for ink in inks)
+    named = [source for texture in painting.textures.values() for source in texture.pictures]
+    found = _collected(grown) | _collected(named) | _collected(one for ink in inks for one in pictures_of(ink))
     return dict(sorted(found.items()))
 
 

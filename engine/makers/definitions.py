@@ -27,6 +27,7 @@ USUAL = {
     "solid": "tile",
 }  # what makers do where nothing is said
 MATCHED = ("match", "mix")  # makers that match noise to examples
+LEARN = "learn"  # of a picture that is refined below its own pixels
 COUNT_CAP = 16  # of one brush
 _REFERRING = ("texture", "density", "grain", "tip", "example")  # members of a brush that may hold a texture's name
 
@@ -70,13 +71,15 @@ def kind_of(command: DefineTexture) -> str:
     if command.maker in MATCHED:
         stages = command.arguments.get("stages", 1)
         return "series" if isinstance(stages, int) and stages > 1 else "matched"
+    if command.maker == LEARN:
+        return "image" if "path" in command.arguments else "canvas"
     usual = USUAL.get(command.maker)
     return command.maker if usual is None else FIELDS.get(command.arguments.get("field", usual), "")
 
 
 def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any]) -> bool:
     """Tells whether a texture of a painting is what this command would make: all that is told is as told."""
-    told = {name: value for name, value in command.arguments.items() if name != "sha"}
+    told = {name: value for name, value in command.arguments.items() if name not in ("sha", "maps_sha")}
     silent = _NAMING - set(told)
     return (
         kind == kind_of(command)
@@ -89,7 +92,7 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
 _NAMING = frozenset(
     (
         *("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field"),
-        *("bundled", "mask", "mask_strokes", "region", "params", "material", "cube", "step", "touches"),
+        *("bundled", "mask", "mask_strokes", "region", "params", "material", "cube", "step", "touches", "detail"),
     )
 )
 _MISSING = object()
@@ -106,7 +109,7 @@ def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTextu
         maker = "solid" if "material" in parameters or "cube" in parameters else maker
     elif kind in ("matched", "series"):
         maker = "mix" if "pattern" in parameters else "match"
-    given = {key: value for key, value in parameters.items() if key not in ("sha", "mask_sha", "examples")}
+    given = {key: value for key, value in parameters.items() if key not in ("sha", "mask_sha", "maps_sha", "examples")}
     found = DefineTexture(name, maker, Map(given))
     return found if kind_of(found) == kind else None
 

@@ -19,7 +19,8 @@ from engine.files.fault import FileError
 from engine.files.strict_json import Fields
 from engine.keeping.disk_raster import room
 from engine.makers import carved, heeger_bergen, lewis
-from engine.makers.definitions import FIELDS, USUAL, kind_of
+from engine.makers.definitions import FIELDS, LEARN, USUAL, kind_of
+from engine.makers.learning import learnt_of, with_maps
 from engine.painting.capture import PictureSource, captured, read_bytes, read_straight
 from engine.painting.commands import DefineTexture
 from engine.painting.layering.painting_member import A_FILE, A_PICTURE, HOLDS
@@ -41,6 +42,7 @@ def define(command: DefineTexture, root: Group, around: Around) -> Texture:
     if make is None:
         raise FieldError("maker", f"{command.maker!a}", f"one of {', '.join(MAKERS)}")
     texture = replace(make(untimed(command), root, around), arithmetic=around.arithmetic)
+    texture = with_maps(command.name, texture, around)
     texture.instance({}, 0, 0)  # its parameters are checked where it is defined, not where it is used
     return texture
 
@@ -66,6 +68,12 @@ def _canvas(command: DefineTexture, root: Group, around: Around) -> Texture:
     given = command.arguments
     parameters = given if "period" in given else given.set("period", given["rect"][3])
     return Texture("canvas", parameters, ImageSource.of(command.name, planes))
+
+
+def _learnt(command: DefineTexture, root: Group, around: Around) -> Texture:
+    """Returns a picture, or a piece of the canvas, that is refined below its own pixels."""
+    make = _image if "path" in command.arguments else _canvas
+    return learnt_of(make(command, root, around))
 
 
 def _sampled(make: lewis.Maker, command: DefineTexture, root: Group, around: Around) -> Texture:
@@ -122,6 +130,7 @@ MAKERS: dict[str, _Maker] = {
     **{name: _procedural for name, row in KINDS.items() if not row.pictured},
     GRADIENT: _procedural,
     "image": _image,
+    LEARN: _learnt,
     "canvas": _canvas,
     "spectrum": partial(_sampled, lewis.of_spectrum),
     "sparse": partial(_sampled, lewis.of_picture),

@@ -47,6 +47,7 @@ from engine.painting.layering.paper_command import SetPaper, read_colour
 from engine.painting.layering.touch_command import TouchCommand
 from engine.painting.places import BookmarkCommand
 from engine.painting.points import ALWAYS
+from engine.texture.record import LEARNT
 
 VERSION = 2  # that is read; older ones too
 VERSION_OF_GRIDS = 2  # from which on the header tells the grid, and the paper
@@ -146,7 +147,7 @@ def version_of(command: Command) -> int:
     newer = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto) or _lasts(command.brush))
     newer |= isinstance(command, Stroke) and (command.brush.height is not None or command.brush.impasto != 0.0)
     newer |= isinstance(command, Stroke) and (feels(command.brush) or command.points.shape[1] > ALWAYS)
-    newer |= isinstance(command, DefineTexture) and _newer(command.arguments)
+    newer |= isinstance(command, DefineTexture) and (command.maker == "learn" or _newer(command.arguments))
     return 2 if region or newer or isinstance(command, _OF_VERSION_2) else 1
 
 
@@ -158,7 +159,7 @@ def _lasts(brush: Brush) -> bool:
 
 def _newer(parameters: Mapping[str, object]) -> bool:
     """Tells whether parameters of a texture are of version 2."""
-    return parameters.get("renew") is False or bool(parameters.get("turn"))
+    return parameters.get("renew") is False or bool(parameters.get("turn")) or parameters.get("detail") == LEARNT
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

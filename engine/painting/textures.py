@@ -18,24 +18,32 @@ from engine.texture.image import ImageSource
 from engine.texture.record import Instance
 from engine.texture.table import KINDS, instance
 
+LEARNT_SHA = "maps_sha"  # the member of a definition by which what was learnt is known again
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Texture:
     """`kind`: a row of KINDS; `parameters`: those that the definition gives, a brush may give others on top;
     `source`: the picture of an image; `mask`: of an example, white where the region is that is grown, None where that
-    goes by alpha; `arithmetic`: that of its painting."""
+    goes by alpha; `arithmetic`: that of its painting; `maps`: what was learnt of the picture, kept as one."""
 
     kind: str
     parameters: Map[str, Any]
     source: ImageSource | None = None
     mask: ImageSource | None = None
     arithmetic: int = LIBRARY
+    maps: ImageSource | None = None
+
+    @property
+    def pictures(self) -> tuple[ImageSource, ...]:
+        """Gives all pictures that it needs."""
+        return tuple(one for one in (self.source, self.mask, self.maps) if one is not None)
 
     def instance(self, parameters: Mapping[str, Any], level: int, seed: int) -> Instance:
         """Makes the instance that a brush's ink names, with the parameters that it gives anew, a base level and a
         seed.  TextureError names what is wrong."""
         given = {**self.parameters, **parameters}
-        return instance(self.kind, given, level, seed, self.source, self.arithmetic)
+        return instance(self.kind, given, level, seed, self.source, self.arithmetic, self.maps)
 
 
 @cache
@@ -65,4 +73,6 @@ def recorded(command: DefineTexture, texture: Texture) -> DefineTexture:
     found = {name: value for name, value in texture.parameters.items() if name not in command.arguments}
     if texture.mask is not None:
         found["mask_sha"] = texture.mask.sha
+    if texture.maps is not None:
+        found[LEARNT_SHA] = texture.maps.sha
     return replace(command, arguments=command.arguments.update(found, sha=texture.source.sha))

@@ -136,7 +136,7 @@ class Session(Owned):
         """Returns what definitions find around them: pictures of textures by their sha, wherever their files are
         now; `lent` among them."""
         textures = self.painting.textures.values()
-        sources = (lent, *(t.source for t in textures), *(t.mask for t in textures))
+        sources = (lent, *(one for texture in textures for one in texture.pictures))
         known = {source.sha: source for source in sources if source is not None}
         return Around(self.cache, self.folder, {**self.pictures, **known}, self.painting.arithmetic)
 

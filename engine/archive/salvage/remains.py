@@ -30,6 +30,7 @@ from engine.numeric.address import TileKey
 from engine.painting.recording import Recording, torn_from
 from engine.painting.rendering import Stop, check_cancelled
 from engine.texture.image import ImageSource
+from engine.texture.record import pictures_of
 from engine.texture.table import from_key
 
 
@@ -161,5 +162,5 @@ class Remains:
 def _is_seen(tile: Coded) -> bool:
     """Tells whether the pictures of all inks of a tile are there."""
     _, record, implied = tile
-    sources = (getattr(ink, "source", None) for ink in (*record.inks, *(() if implied is None else implied.inks)))
-    return not any(isinstance(source, ImageSource) and not source.there for source in sources)
+    inks = (*record.inks, *(() if implied is None else implied.inks))
+    return all(source.there for ink in inks for source in pictures_of(ink))

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Generator, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import NamedTuple
 
@@ -278,7 +278,7 @@ class PaintedHere:
                 if command.maker == GRADIENT or (row is not None and not row.pictured):
                     made[name] = Texture(command.maker, plain.arguments)
                 elif same is not None:
-                    made[name] = Texture(kind_of(plain), plain.arguments, same.source, same.mask)
+                    made[name] = replace(same, kind=kind_of(plain), parameters=plain.arguments)
             if len(self._made) >= _KEPT:
                 self._made.clear()
             self._made[id(definitions)] = definitions, made

@@ -54,7 +54,7 @@ def held_by(session: Session) -> tuple[tuple[str, int], ...]:
 
 def _pictures(painting: Painting) -> int:
     """Counts the bytes of the pictures that textures are made of, and of those that layers began with."""
-    sources = {source.sha: source.pixels for t in painting.textures.values() for source in (t.source, t.mask) if source}
+    sources = {source.sha: source.pixels for t in painting.textures.values() for source in t.pictures}
     grounds = (layer.pyramid.ground for layer in layers(painting.root))
     return sum(pixels.nbytes for pixels in sources.values() if pixels is not None) + sum(
         len(ground.pixels) for ground in grounds if ground is not None

@@ -127,9 +127,8 @@ def _made(parent: Path, past: Past) -> Begun:
     folder, lock = new_entry(parent)
     try:
         base = None if past.base is None else keep_painting(folder, past.base)
-        for source in (source for texture in past.textures for source in (texture.source, texture.mask)):
-            if source is not None:
-                keep_source(folder, source)
+        for source in (source for texture in past.textures for source in texture.pictures):
+            keep_source(folder, source)
         clocks = [clock for command in past.commands if (clock := time_of(command)) is not None]
         head = head_again(past.name, past.path, past.header, past.folder, base)
         head |= {"unsaved": past.unsaved, "seconds": spent(clocks)}

@@ -97,9 +97,8 @@ class Beside(Owned):
 
     def keep(self, texture: Texture) -> None:
         """A texture was defined: its pictures are kept."""
-        for source in (texture.source, texture.mask):
-            if source is not None:
-                self.do(partial(in_folder, self._entry, partial(keep_source, source=source)))
+        for source in texture.pictures:
+            self.do(partial(in_folder, self._entry, partial(keep_source, source=source)))
 
     def rest(self, painting: Painting, count: int) -> None:
         """Nothing is being painted: writes what is due of the painting after `count` commands."""
