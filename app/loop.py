@@ -21,6 +21,7 @@ import glfw  # isort: skip
 from app.faults.endings import Signals, hear_display_loss
 from app.faults.file_guard import guard_files
 from app.faults.log import log_file, open_log
+from app.input.window_box import fitted_box, kept_window_file, read_box
 from app.trace import trace
 
 if TYPE_CHECKING:
@@ -43,6 +44,8 @@ def run(path: str | None = None, play: str | None = None) -> int:
     WindowError if there is no display or no OpenGL 3.3.
     """
     window = opened_window()
+    if path is None and play is None:
+        window.desk.start.welcome()
     window.frame()
     trace("first frame")
     open_log()
@@ -145,13 +148,26 @@ def _open_window() -> Any:
     for hint, value in hints:
         glfw.window_hint(hint, value)
     glfw.window_hint_string(glfw.X11_CLASS_NAME, "inkfall")
-    handle = glfw.create_window(WIDTH, HEIGHT, "Inkfall", None, None)
+    handle = glfw.create_window(*_place_as_before(), "Inkfall", None, None)
     if not handle:
         glfw.terminate()
         raise WindowError("no window: OpenGL 3.3 is not there")
     glfw.make_context_current(handle)
     glfw.swap_interval(1)
     return handle
+
+
+def _place_as_before() -> tuple[int, int]:
+    """Has the window come up where it lay last, if that is still on a screen; returns its width and height."""
+    box = read_box(kept_window_file())
+    if box is None:
+        return WIDTH, HEIGHT
+    (x, y, width, height), seen = fitted_box(box.area, [glfw.get_monitor_workarea(one) for one in glfw.get_monitors()])
+    if seen:
+        glfw.window_hint(glfw.POSITION_X, x)
+        glfw.window_hint(glfw.POSITION_Y, y)
+    glfw.window_hint(glfw.MAXIMIZED, box.maximised)
+    return width, height
 
 
 def _glfw_error(code: int, text: Any) -> None:

@@ -36,6 +36,8 @@ def _note(desk: Desk, note: results.Note, _now: float) -> None:
 def _saved(desk: Desk, saved: results.Saved, _now: float) -> None:
     desk.notices.settle("save", "elsewhere")
     desk.say(saved.told or f"Saved {Path(saved.path).name}", bad=bool(saved.told))
+    path = Path(saved.path).absolute()
+    desk.opened.saves[path] = desk.opened.saves.get(path, 0) + 1
     desk.asked.saved()
 
 

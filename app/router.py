@@ -103,6 +103,7 @@ class Router:
             return
         if not self.layout.dialogs.open:
             imgui.set_window_focus(None)
+            self.desk.start.leave()
         self.desk.glide.land()
         self._button = event.button
         self.gesture, self._last = self._chosen(event), event
@@ -181,6 +182,9 @@ class Router:
         dialog = _dialog(self.desk, self.layout)
         if keys == "Escape" and self.layout.popup and not dialog:
             self.layout.dismiss()
+            return
+        if keys == "Escape" and self.desk.start.shown and not dialog:
+            self.desk.start.leave()
             return
         busy = _busy(self.desk, self.layout)
         found = by_key(keys)

@@ -6,6 +6,7 @@ from typing import Any
 
 from app.canvas.screen import Screen, ScreenTile, cells, near_first
 from app.desk.desk import Desk, Hear
+from app.desk.remembering.kept_views import show_as_before
 from app.trace import TRACED, trace
 from engine.studio import results
 from engine.studio.requests import Look
@@ -59,8 +60,10 @@ class Tiles:
         if scene.serial == self._serial:
             return
         self._screen.forget()
+        if self._serial is not None:
+            desk.start.leave()
         if (self._serial is not None or scene.path is not None) and not self.stays:
-            desk.fit()
+            show_as_before(desk, scene.path)
         self.stays = self.stays and scene.serial == 0
         self._serial = scene.serial
         trace(f"painting {scene.serial} shown")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -33,16 +34,20 @@ from app.desk.places import going
 from app.desk.previews import Previews
 from app.desk.recovery.engine_thread import EngineThread, Start
 from app.desk.recovery.recovery_work import FindCards
+from app.desk.remembering.kept_views import ReadViews, ViewsWatched
+from app.desk.remembering.kept_window import Remembering, read_window, restore_window
 from app.desk.sharing.preset_work import BRUSH, bring_preset
 from app.desk.stock import TakeStock
 from app.drawing import Drawing
 from app.faults.fault_guard import FaultGuard
 from app.input.events import PenEvent
 from app.input.pointers import Pointers
+from app.input.window_box import box_of_window, kept_window_file
 from app.land.land_screen import LandScreen
 from app.land.land_wants import LandWants
 from app.news import News
 from app.pace import Pace
+from app.panels.controls.folds import keep_folds_in
 from app.panels.guides.assistant_marks import draw_assistants
 from app.panels.layout import Layout
 from app.panels.moving import box_marks, frame_marks
@@ -93,6 +98,10 @@ class Window:
         self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, scale)
         self.desk.graphics = f"{self.ctx.info['GL_RENDERER']}, {self.ctx.info['GL_VERSION']}"
         self._guard = FaultGuard(lambda: self.desk.told(_FAULT))
+        kept, self._kept_fault = read_window(kept_window_file())
+        restore_window(self.desk, kept)
+        keep_folds_in(self.desk.remembered.folded)
+        self._remembering, self._views = Remembering(partial(box_of_window, handle, scale)), ViewsWatched()
         self.layout = Layout(self._guard)
         self.router = Router(self.desk, self.layout)
         self.pointers = Pointers(handle)
@@ -157,7 +166,8 @@ class Window:
         for source in (self.engine.news, shelf.take, previews.take, files.take):
             self.news.connect(source)
         self.desk.work(FindCards())  # first: its pictures are to be seen at once
-        self.desk.work(TakeStock())
+        self.desk.work(ReadViews())
+        self.desk.work(TakeStock(self.desk.remembered.kept, self._kept_fault))
 
     def _taken(self, worker: Worker, again: bool) -> None:
         """Works with an engine's thread; `again`: it has the painting back that is on the screen."""
@@ -178,6 +188,8 @@ class Window:
             moving = desk.land.step(seconds, now) or moving
             follow_view(desk)
             going.watch(desk, now)
+            self._views.watch(desk, now)
+            self._remembering.watch(desk, now)
         self._panels()
         with spare("asking for what is to be seen"):
             if desk.known.ready:
@@ -262,6 +274,10 @@ class Window:
 
     def hide(self) -> None:
         """Takes it from the screen; ends the stroke in hand, and waits for the files that it writes."""
+        if self._files is not None:
+            with self._guard.spare("on the end of the session"):
+                self._views.end(self.desk)
+                self._remembering.end(self.desk)
         glfw.hide_window(self.handle)
         glfw.poll_events()
         self.let_go()

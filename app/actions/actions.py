@@ -35,6 +35,7 @@ ACTIONS: dict[str, Action] = {
     **VIEW_ACTIONS,
     **WRAPPING_ACTIONS,
     "keys": Action("Keys…", "Help", ("F1",), "All keys in one list", asks("keys")),
+    "start_page": Action("Start page", "Help", (), "Things to try, and what was open", lambda desk: desk.start.show()),
     "copy_details": Action("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),
     "about": Action("About Inkfall…", "Help", (), "What this program is", asks("about")),
 }  # fmt: skip

@@ -37,6 +37,8 @@ from app.desk.past.past_state import PastState
 from app.desk.places.place_state import PlaceState
 from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import RecoveryState
+from app.desk.remembering.remembered import Remembered
+from app.desk.remembering.start_state import StartState
 from app.desk.selecting.select_state import SelectState
 from app.desk.solids.solid_state import SolidState
 from app.desk.stack.stack_state import StackState
@@ -147,6 +149,8 @@ class Desk:
     moving: MoveState = field(default_factory=MoveState)
     selecting: SelectState = field(default_factory=SelectState)
     opened: OpenedFiles = field(default_factory=OpenedFiles)
+    remembered: Remembered = field(default_factory=Remembered)
+    start: StartState = field(default_factory=StartState)
     solid: SolidState = field(default_factory=SolidState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references

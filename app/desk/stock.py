@@ -15,6 +15,8 @@ from app.desk.holding.kept_desk import kept_file, read_kept, restore
 from app.desk.holding.palette_shelf import load_palettes, palettes_folder
 from app.desk.notices import Notice
 from app.desk.presets import Paper, Preset
+from app.desk.remembering.kept_window import FoundAgain, found_again, restore_found
+from app.desk.remembering.window_record import KeptWindow
 from engine.files.swatches.colour_list import ColourList
 
 
@@ -26,12 +28,17 @@ class Stock(NamedTuple):
     examples: tuple[Entry, ...]
     kept: KeptDesk
     palettes: tuple[ColourList, ...]
+    found: FoundAgain
     faults: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class TakeStock(FileWork):
-    """Reads all that comes along, and all of the artist's own."""
+    """Reads all that comes along, and all of the artist's own; `window`: what that remembers, `fault`: why that is not
+    what it should be."""
+
+    window: KeptWindow = KeptWindow()  # noqa: RUF009  # it never changes
+    fault: str = ""
 
     def carry_out(self) -> Stock:
         """Reads presets, papers and examples, those that come along and the artist's own."""
@@ -43,14 +50,16 @@ class TakeStock(FileWork):
         examples = example_state.arranged([*given, *kept])
         desk_kept, fault = read_kept(kept_file())
         palettes, worse = load_palettes(palettes_folder())
-        told = (*faults, *more, *torn, *bad, *lost, *worse, *([fault] if fault else ()))
-        return Stock((*bundled, *own), tuple(papers), tuple(examples), desk_kept, tuple(palettes), told)
+        told = (*faults, *more, *torn, *bad, *lost, *worse, *(one for one in (fault, self.fault) if one))
+        brushes, found = (*bundled, *own), found_again(self.window)
+        return Stock(brushes, tuple(papers), tuple(examples), desk_kept, tuple(palettes), found, told)
 
     def arrive(self, desk: Desk, found: Stock) -> None:
         """Puts what was found on the desk."""
         desk.learn(presets=found.presets or (presets.DEFAULT,), papers=found.papers, palettes=found.palettes)
         desk.examples.entries = found.examples
         restore(desk, found.kept)
+        restore_found(desk, found.found)
         gather(desk)
         _first(desk)
         if found.faults:

@@ -22,6 +22,7 @@ from app.panels.moving.move_bar import MoveBar
 from app.panels.options import options_bar
 from app.panels.panel import Painting
 from app.panels.places.place_field import PlaceField
+from app.panels.starting import start_page
 from app.panels.strip import StripPanel
 
 LEFT, RIGHT = 248.0, 286.0  # widths in points
@@ -44,6 +45,7 @@ class Layout:
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
         self.dialogs, self.strip, self.place_field = Dialogs(), StripPanel(), PlaceField()
         self.move_bar, self.guide_bar, self.pop_up = MoveBar(), GuideBar(), PopUp()
+        self.start_page = start_page.StartPage()
         self._covered: list[tuple[float, float, float, float]] = []
         self._popup, self._strip = False, ""
 
@@ -96,6 +98,13 @@ class Layout:
                 self._open_strip(desk, (left, desk.view.height - bottom, wide, tall))
         self._make_room(desk, (left, top, right, bottom))
         self._bar(desk, (left, top))
+        box = self.start_page.box(desk)
+        if box is not None:
+            with start_page.card_style(desk):
+                if self._begin("start", box):
+                    with self._guard.spare_drawing("drawing the start page"):
+                        self.start_page.draw(desk)
+                imgui.end()
         with self._guard.spare_drawing("drawing a dialog"):
             self.dialogs.draw(desk)
         with self._guard.spare_drawing("drawing the pop-up palette"):

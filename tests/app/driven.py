@@ -20,10 +20,18 @@ PATIENCE = 90.0  # seconds; the first start compiles kernels
 REST = (640, 790)  # on the status line: there the pointer covers nothing that is looked at
 
 
+def welcome(config: Path) -> None:
+    """Has the start page been seen by whoever has this configuration folder."""
+    path = config / "inkfall" / "window.json"
+    if not path.exists():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text('{"welcomed": true}')
+
+
 class Program:
     """`python -m app` on a display, moved by xdotool, seen through pictures of its screen.  `module`: one beside this
     file that starts the program in place of `app`; `ready`: what the program has told when it is handed over;
-    `server`: what it is forked off, and does not load for itself."""
+    `server`: what it is forked off, and does not load for itself; `first`: it is the first start of all."""
 
     def __init__(
         self,
@@ -34,8 +42,11 @@ class Program:
         module: str = "app",
         ready: str = "engine ready",
         server: Server | None = None,
+        first: bool = False,
     ) -> None:
         self.display, self.folder = display, folder
+        if not first:
+            welcome(folder / "config")
         self.do("mouseup", 1)  # what held it before has ended
         environment = {
             **os.environ,

@@ -31,15 +31,19 @@ EXPORT_FORMATS = {
 }
 
 
+EXPORT_CHOICES = "area", "finer", "format", "transparent", "apart", "lit"  # what is remembered of it
+
+
 @dataclass(slots=True)
 class ExportState:
     """`area`: a row of `export_areas.AREAS`; `finer`: how many levels finer than that; `format`: a row of
-    EXPORT_FORMATS; `transparent`: without the paper; `apart`: each layer by itself, in a file of its own; `light`: that
-    it is lit by."""
+    EXPORT_FORMATS; `transparent`: without the paper; `apart`: each layer by itself, in a file of its own; `lit`: as it
+    is in the light, `light`: in which."""
 
     area: str = FRAME_AREA
     finer: int = 0
     format: str = "png"
     transparent: bool = False
     apart: bool = False
+    lit: bool = False
     light: Light | None = None

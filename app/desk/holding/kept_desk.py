@@ -3,8 +3,6 @@ configuration folder."""
 
 from __future__ import annotations
 
-import json
-import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -14,12 +12,10 @@ from app.desk.colours import from_hex, to_hex
 from app.desk.desk import Desk, FileWork
 from app.desk.hand import HISTORY
 from app.desk.holding.desk_record import MOST_FAVOURITES, KeptDesk
+from app.desk.remembering.kept_json import KeptObject, read_kept_object, write_kept_object
 from engine.checks.field_error import FieldError
 from engine.checks.values import described
-from engine.files import strict_json
-from engine.files.atomic import replacing
 
-_BYTES_CAP = 1 << 20
 _NAMES = 4096  # characters of a name at most
 
 
@@ -30,19 +26,14 @@ def kept_file() -> Path:
 
 def read_kept(path: Path) -> tuple[KeptDesk, str]:
     """Returns what was kept, and why that is not what the file should tell, one line."""
-    try:
-        with path.open("rb") as file:
-            data = strict_json.loads(file.read(_BYTES_CAP + 1), _BYTES_CAP)
-        if not isinstance(data, dict):
-            raise FieldError("", described(data), "an object")
-        favourites = _texts(data.get("favourites", list(KeptDesk().favourites)), "favourites", MOST_FAVOURITES)
-        colours = _texts(data.get("colours", []), "colours", HISTORY)
-        (palette,) = _texts([data.get("palette", "")], "palette", 1)
-        return KeptDesk(favourites, tuple(to_hex(from_hex(colour)) for colour in colours), palette), ""
-    except FileNotFoundError:
-        return KeptDesk(), ""
-    except (OSError, ValueError) as error:
-        return KeptDesk(), f"{path.name}: {error}"
+    return read_kept_object(path, _kept_of, KeptDesk())
+
+
+def _kept_of(data: KeptObject) -> KeptDesk:
+    favourites = _texts(data.get("favourites", list(KeptDesk().favourites)), "favourites", MOST_FAVOURITES)
+    colours = _texts(data.get("colours", []), "colours", HISTORY)
+    (palette,) = _texts([data.get("palette", "")], "palette", 1)
+    return KeptDesk(favourites, tuple(to_hex(from_hex(colour)) for colour in colours), palette)
 
 
 def _texts(value: object, place: str, most: int) -> tuple[str, ...]:
@@ -59,14 +50,9 @@ class KeepDesk(FileWork):
 
     def carry_out(self) -> None:
         """Writes the file."""
-        path = kept_file()
-        path.parent.mkdir(parents=True, exist_ok=True)
-        if read_kept(path)[1]:
-            os.replace(path, path.with_name("desk.damaged.json"))
-        kept = self.kept
-        told = {"favourites": kept.favourites, "colours": kept.colours, "palette": kept.palette}
-        with replacing(path) as file:
-            file.write((json.dumps(told, indent=1, ensure_ascii=False) + "\n").encode("utf-8"))
+        path, kept = kept_file(), self.kept
+        told: KeptObject = {"favourites": kept.favourites, "colours": kept.colours, "palette": kept.palette}
+        write_kept_object(path, told, bool(read_kept(path)[1]))
 
     def arrive(self, desk: Desk, found: None) -> None:
         """Tells nothing: nobody asked for it."""

@@ -9,6 +9,7 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme, trace
+from app.panels.controls.folds import folding_header
 
 Col = imgui.Col_
 _RETURN = imgui.Key.enter, imgui.Key.keypad_enter
@@ -121,13 +122,12 @@ def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = F
     imgui.dummy(ImVec2(0, 1))
     if shared:
         imgui.set_next_item_allow_overlap()
-    flags = imgui.TreeNodeFlags_.default_open if opened else 0
-    flags |= imgui.TreeNodeFlags_.no_tree_push_on_open | imgui.TreeNodeFlags_.span_avail_width
+    flags = imgui.TreeNodeFlags_.span_avail_width | (imgui.TreeNodeFlags_.default_open if opened else 0)
     imgui.push_style_color(Col.header, theme.vec(theme.PANEL, 0.0))
     imgui.push_style_color(Col.header_hovered, theme.vec(theme.RAISED, 0.5))
     imgui.push_style_color(Col.header_active, theme.vec(theme.RAISED))
     imgui.push_style_color(Col.text, theme.vec((0.70,) * 3))
-    shown = imgui.tree_node_ex(f"{title}##section", flags)
+    shown = folding_header(title, flags)
     imgui.pop_style_color(4)
     named(title)
     tooltip(hint)
@@ -145,13 +145,11 @@ def switched_section(title: str, hint: str, on: bool) -> tuple[bool, bool]:
     mouse = imgui.get_io().mouse_pos
     over = at.x - 4 <= mouse.x < right and abs(mouse.y - at.y - tall / 2) <= line / 2 and imgui.is_window_hovered()
     pressed = over and imgui.is_mouse_clicked(imgui.MouseButton_.left)
-    if pressed:
-        on = not on
-        imgui.set_next_item_open(on)
+    on = on != pressed
     imgui.push_style_color(Col.header_hovered, theme.vec(theme.RAISED, 0.5))
     imgui.push_style_color(Col.header_active, theme.vec(theme.RAISED))
     imgui.push_style_color(Col.text, theme.vec(theme.TEXT if on else (0.70,) * 3))
-    shown = imgui.tree_node_ex(f"{title}##section", imgui.TreeNodeFlags_.no_tree_push_on_open)
+    shown = folding_header(title, turned=on if pressed else None)
     imgui.pop_style_color(3)
     named(title)
     tooltip(hint)

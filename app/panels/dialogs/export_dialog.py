@@ -21,7 +21,7 @@ class ExportDialog:
     title = "Export picture"
 
     def __init__(self, desk: Desk) -> None:
-        self._lit = desk.light.on
+        desk.export.lit = desk.export.lit or desk.light.on
         if AREAS[desk.export.area].of(desk) is None:
             desk.export.area = FRAME_AREA
 
@@ -53,7 +53,7 @@ class ExportDialog:
         going = w.default_button("Choose file…", "Choose where to write it", enabled=fits, width=em * 8)
         if going:
             desk.light.keep_to(desk.known.scene)
-            state.light = desk.light.light if self._lit else None
+            state.light = desk.light.light if state.lit else None
             desk.asked.show("export to")
         imgui.same_line()
         return not (w.text_button("Cancel", "Go back", width=em * 7) or going)
@@ -78,4 +78,4 @@ class ExportDialog:
             state.transparent = w.tick("Without paper", state.transparent, hint)[1]
         hint = "Each layer by itself, as a file of its own: its name stands behind the picture's"
         state.apart = w.tick("A file for each layer", state.apart, hint)[1]
-        self._lit = w.tick("As lit", self._lit, "In the light of View > Light, with its sun, depth and gloss")[1]
+        state.lit = w.tick("As lit", state.lit, "In the light of View > Light, with its sun, depth and gloss")[1]

@@ -20,6 +20,7 @@ from app.desk.exporting.export_state import EXPORT_FORMATS
 from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
 from app.desk.holding.palette_shelf import PALETTES, WritePalette, bring_palette, palette_to_write
 from app.desk.outside import bringing, pictured
+from app.desk.outside.opened_files import OF_PAINTINGS
 from app.desk.presets import stem_of
 from app.desk.previews import FileRow
 from app.desk.sharing.preset_work import BRUSH, SharePreset, bring_preset
@@ -186,42 +187,44 @@ class Browser:
         return True
 
 
-def _chooser(title: str, start: Path, endings: tuple[str, ...], saving: bool, then: Then) -> SystemDialog | Browser:
+def _chooser(
+    desk: Desk, title: str, endings: tuple[str, ...], then: Then, name: str | None = None
+) -> SystemDialog | Browser:
+    """Returns what asks for a file to read, or where to write one that is called `name` at first."""
+
     def chosen(desk: Desk, path: Path) -> None:
-        desk.opened.folder = path.parent
+        desk.opened.folders[title] = path.parent
+        if title in OF_PAINTINGS:
+            desk.opened.folder = path.parent
         then(desk, path)
 
-    make = SystemDialog if has_system_dialogs() else Browser
-    return make(title, start, endings, saving, chosen)
-
-
-def _folder(desk: Desk) -> Path:
-    return desk.opened.begin(desk.known.path)
+    make, folder = SystemDialog if has_system_dialogs() else Browser, desk.opened.begin(title, desk.known.path)
+    return make(title, folder if name is None else folder / name, endings, name is not None, chosen)
 
 
 def opening(desk: Desk) -> SystemDialog | Browser:
     """Asks for a file to open."""
-    return _chooser("Open", _folder(desk), OPENS, False, Desk.open)
+    return _chooser(desk, "Open", OPENS, Desk.open)
 
 
 def saving(desk: Desk) -> SystemDialog | Browser:
     """Asks where to save the painting."""
-    return _chooser("Save as", _folder(desk) / f"{desk.known.stem}.ora", SAVES, True, Desk.save)
+    return _chooser(desk, "Save as", SAVES, Desk.save, f"{desk.known.stem}.ora")
 
 
 def exporting(desk: Desk) -> SystemDialog | Browser:
     """Asks where to export the picture."""
     ending = EXPORT_FORMATS[desk.export.format].ending
-    start, endings = _folder(desk) / f"{desk.known.stem}{ending}", (ending, *(e for e in EXPORTS if e != ending))
-    return _chooser("Export picture", start, endings, True, lambda d, path: d.post(export_wish(d, path)))
+    name, endings = f"{desk.known.stem}{ending}", (ending, *(e for e in EXPORTS if e != ending))
+    return _chooser(desk, "Export picture", endings, lambda d, path: d.post(export_wish(d, path)), name)
 
 
 def filming(desk: Desk) -> SystemDialog | Browser:
     """Asks where to write a film."""
     stem = desk.known.path.stem if desk.known.path else "untitled"
-    start, wish = _folder(desk) / f"{stem}.mp4", desk.asked.film.wished
+    wish = desk.asked.film.wished
     assert wish is not None
-    return _chooser("Film", start, FILMS, True, lambda d, path: d.post(MakeFilm(path, wish)))
+    return _chooser(desk, "Film", FILMS, lambda d, path: d.post(MakeFilm(path, wish)), f"{stem}.mp4")
 
 
 def choosing_spectrum(desk: Desk) -> SystemDialog | Browser:
@@ -230,7 +233,7 @@ def choosing_spectrum(desk: Desk) -> SystemDialog | Browser:
     def choose(d: Desk, path: Path) -> None:
         d.lab.change(shapes=(Map({"shape": "image", "path": str(path.absolute())}),))
 
-    return _chooser("Begin with a picture's spectrum", _folder(desk), _PICTURES, False, choose)
+    return _chooser(desk, "Begin with a picture's spectrum", _PICTURES, choose)
 
 
 def choosing_example(index: int) -> Callable[[Desk], SystemDialog | Browser]:
@@ -239,17 +242,17 @@ def choosing_example(index: int) -> Callable[[Desk], SystemDialog | Browser]:
     def choose(d: Desk, path: Path) -> None:
         d.match.show_file(index, path)
 
-    return lambda desk: _chooser("Make a texture like a picture", _folder(desk), _PICTURES, False, choose)
+    return lambda desk: _chooser(desk, "Make a texture like a picture", _PICTURES, choose)
 
 
 def choosing_own(desk: Desk) -> SystemDialog | Browser:
     """For an example of the artist's own."""
-    return _chooser("Add an example", _folder(desk), _PICTURES, False, example_work.add)
+    return _chooser(desk, "Add an example", _PICTURES, example_work.add)
 
 
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture to paint with."""
-    return _chooser("Paint with a picture", _folder(desk), _PICTURES, False, pictured.from_file)
+    return _chooser(desk, "Paint with a picture", _PICTURES, pictured.from_file)
 
 
 def choosing_mesh(desk: Desk) -> SystemDialog | Browser:
@@ -258,39 +261,39 @@ def choosing_mesh(desk: Desk) -> SystemDialog | Browser:
     def choose(d: Desk, path: Path) -> None:
         d.solid.name = str(path.absolute())
 
-    return _chooser("Show a solid on a mesh", _folder(desk), _MESHES, False, choose)
+    return _chooser(desk, "Show a solid on a mesh", _MESHES, choose)
 
 
 def choosing_cube(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture from which a solid grows, or a file that holds a cube."""
-    return _chooser("A solid like a picture, or a cube", _folder(desk), CUBES, False, bring_cube)
+    return _chooser(desk, "A solid like a picture, or a cube", CUBES, bring_cube)
 
 
 def choosing_to_bring(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture, or a file of layers, to bring into the painting, in the middle of what is seen."""
-    return _chooser("Bring in a picture", _folder(desk), _BROUGHT, False, bringing.offer)
+    return _chooser(desk, "Bring in a picture", _BROUGHT, bringing.offer)
 
 
 def sharing_brush(desk: Desk) -> SystemDialog | Browser:
     """Asks where to write a brush that is shared."""
     preset = desk.asked.brush
     assert preset is not None
-    start = _folder(desk) / f"{stem_of(preset.name)}{BRUSH}"
-    return _chooser("Share a brush", start, (BRUSH,), True, lambda d, path: d.work(SharePreset(preset, path)))
+    name = f"{stem_of(preset.name)}{BRUSH}"
+    return _chooser(desk, "Share a brush", (BRUSH,), lambda d, path: d.work(SharePreset(preset, path)), name)
 
 
 def choosing_brush(desk: Desk) -> SystemDialog | Browser:
     """Asks for a brush that somebody shared."""
-    return _chooser("Bring in a brush", _folder(desk), (BRUSH,), False, bring_preset)
+    return _chooser(desk, "Bring in a brush", (BRUSH,), bring_preset)
 
 
 def choosing_palette(desk: Desk) -> SystemDialog | Browser:
     """Asks for a palette."""
-    return _chooser("Bring in a palette", _folder(desk), PALETTES, False, bring_palette)
+    return _chooser(desk, "Bring in a palette", PALETTES, bring_palette)
 
 
 def writing_palette(desk: Desk) -> SystemDialog | Browser:
     """Asks where to write the palette that is shown."""
     palette = palette_to_write(desk)
-    start = _folder(desk) / f"{stem_of(palette.name)}.gpl"
-    return _chooser("Write a palette", start, (".gpl",), True, lambda d, path: d.work(WritePalette(palette, path)))
+    name = f"{stem_of(palette.name)}.gpl"
+    return _chooser(desk, "Write a palette", (".gpl",), lambda d, path: d.work(WritePalette(palette, path)), name)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from imgui_bundle import ImVec2, imgui
@@ -16,6 +15,7 @@ from app.desk.recovery.recovery_state import made_text, when_text
 from app.desk.recovery.recovery_work import Discard, ListBin, recover
 from app.faults.log import log_file
 from app.panels.controls import widgets as w
+from app.panels.controls.fitting import home_text, shortened
 
 if TYPE_CHECKING:
     from engine.journal.entries import Entry
@@ -105,7 +105,7 @@ class Cards:
 
     def _words(self, entry: Entry, em: float) -> None:
         imgui.push_font(None, imgui.get_style().font_size_base * _NAME)
-        imgui.text_unformatted(_shortened(entry.name or "Untitled", em * (_WIDTH - _PICTURE - 4.5)))
+        imgui.text_unformatted(shortened(entry.name or "Untitled", em * (_WIDTH - _PICTURE - 4.5)))
         imgui.pop_font()
         imgui.text_unformatted(f"{when_text(entry.when, time.time())}")
         imgui.text_disabled(made_text(entry.strokes, entry.seconds))
@@ -117,7 +117,7 @@ class Cards:
             crash = [f"{log_file()} tells more of the crash"] if entry.ident in self._crashed else []
             w.tooltip("\n".join([*wrong, *crash]))
         if entry.path is not None:
-            imgui.text_disabled(_shortened(f"of {_home(entry.path)}", em * (_WIDTH - _PICTURE - 4.5)))
+            imgui.text_disabled(shortened(f"of {home_text(entry.path)}", em * (_WIDTH - _PICTURE - 4.5)))
             w.tooltip(f"{entry.path} stays as it is")
 
     def _buttons(self, desk: Desk, entry: Entry, em: float, tall: float) -> bool:
@@ -190,20 +190,3 @@ def _sign(corner: ImVec2, em: float) -> None:
     wide = imgui.calc_text_size(icons.IMAGE)
     at = ImVec2(corner.x + (_PICTURE * em - wide.x) / 2, corner.y + (_PICTURE * em - wide.y) / 2)
     imgui.get_window_draw_list().add_text(at, theme.packed(theme.QUIET), icons.IMAGE)
-
-
-def _home(path: Path) -> str:
-    """Returns a path as people write it."""
-    home = Path.home()
-    return f"~/{path.relative_to(home)}" if path.is_relative_to(home) else str(path)
-
-
-def _shortened(text: str, width: float) -> str:
-    """Returns a text with as much left out in its middle as it is too wide."""
-    if imgui.calc_text_size(text).x <= width:
-        return text
-    for kept in range(len(text) - 1, 1, -1):
-        shorter = f"{text[: kept // 2]}…{text[-(kept - kept // 2) :]}"
-        if imgui.calc_text_size(shorter).x <= width:
-            return shorter
-    return "…"
