@@ -55,6 +55,9 @@ class Callbacks:
     def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
         self._event()
         self._before(scancode)
+        if self._router.desk.keys.listening and action != glfw.RELEASE:
+            self._keys.append((key, scancode, action, mods))
+            return
         typing = imgui.get_io().want_text_input or self._layout.dialogs.open
         if key != glfw.KEY_TAB or typing:  # Tab would put the focus into a field, which then took all keys
             backends.glfw_key_callback(self._address, key, scancode, action, mods)

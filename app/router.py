@@ -9,10 +9,12 @@ from dataclasses import replace
 import glfw
 from imgui_bundle import imgui
 
+from app.actions.action import Action
 from app.actions.actions import ACTIONS, by_key, perform
 from app.desk.desk import Desk
-from app.input.events import BACK, FORWARD, LEFT, MIDDLE, RIGHT, PenEvent
-from app.keys import chord
+from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
+from app.keys import chord, pointer_chord
+from app.panels.controls.fields_in_sight import field_in_sight
 from app.panels.layout import Layout
 from app.tools.asking_gestures import ask_here, mark, pick, pick_or_pop_up, swap
 from app.tools.gesture import Gesture
@@ -23,12 +25,17 @@ from app.tools.view_gestures import pan, turn, zoom
 
 NOTCH = 0.25  # levels a notch of the wheel zooms
 _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
-_ACTIONS = {BACK: "back", FORWARD: "forward"}  # of buttons that mean the same wherever they are pressed
+_MODIFIER_KEYS = (
+    (glfw.MOD_CONTROL, {glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL}),
+    (glfw.MOD_ALT, {glfw.KEY_LEFT_ALT, glfw.KEY_RIGHT_ALT}),
+    (glfw.MOD_SHIFT, {glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT}),
+)
 _AWAY = -3.4e38  # where imgui looks for a pointer that is not there
 FOCUSING = 0.5  # seconds after a press on a panel in which a text field there may get the focus
 TAKEN_IN = 6  # frames that this takes, at least
 _TOLD = {"Enter": "done", "Backspace": "back"}  # keys that a gesture is told of
-_TYPED_ANYWHERE = ("Ctrl+S", "Ctrl+Q", "F1")
+_NUMBERS = tuple("0123456789.,-+=")  # keys that one types into fields
+_ANYWHERE = "save", "quit", "keys"  # actions that go on while a field has the focus, by keys that write nothing
 
 
 class Router:
@@ -54,11 +61,9 @@ class Router:
             elif event.kind in ("move", "wheel") or event.button == self._button:
                 self._send(event)
             return
-        if event.button in _ACTIONS:
-            if event.kind == "down" and not _busy(desk, self.layout):
-                perform(desk, ACTIONS[_ACTIONS[event.button]])
-            return
-        if event.kind == "lost":
+        over_panels = bool(self._panel_buttons) or self.layout.covers(event.x, event.y)
+        name = pointer_chord(event, _modifiers(self._keys))
+        if event.kind == "lost" or _bound(desk, event, name, over_panels, _busy(desk, self.layout)):
             return
         if event.kind == "down" and event.button in self._panel_buttons:
             self._forget(event.button)
@@ -173,6 +178,9 @@ class Router:
         self._keys.add(key)
         _tell_held(self.desk, self._keys)
         keys = chord(key, scancode, mods)
+        if self.desk.keys.listening:
+            self.desk.keys.pressed, self.desk.keys.listening = keys.removeprefix("Escape"), keys != "Escape"
+            return
         if keys == "Escape" and self.gesture is not None:
             self.cancel()
             return
@@ -190,7 +198,10 @@ class Router:
         found = by_key(keys)
         if not busy and found is not None and self.layout.strip.takes(self.desk, found):
             return
-        if found is not None and (not busy or (keys in _TYPED_ANYWHERE and not dialog)):
+        if found is not None and keys in _NUMBERS and not busy and field_in_sight():
+            self.desk.say("Nothing takes what is typed: click a field first, or a slider with Ctrl held")
+            return
+        if found is not None and (not busy or (_anywhere(keys, found) and not dialog)):
             perform(self.desk, found)
 
     def lost_focus(self) -> None:
@@ -222,6 +233,28 @@ class Router:
     def panning_key(self) -> bool:
         """Tells whether the key is down that makes every press pan."""
         return glfw.KEY_SPACE in self._keys
+
+
+def _bound(desk: Desk, event: PenEvent, name: str, over_panels: bool, busy: bool) -> bool:
+    """Takes a press or a notch of the wheel, `name`, that the list of keys waits for, or that is bound: buttons that
+    panels know are theirs over them.  False where it is for others."""
+    if desk.keys.listening and name:
+        desk.keys.pressed = name
+        return True
+    strange = event.button not in (0, LEFT, MIDDLE, RIGHT)
+    found = by_key(name) if name and not busy and (strange or not over_panels) else None
+    if found is not None:
+        perform(desk, found)
+    return strange or found is not None
+
+
+def _modifiers(held: set[int]) -> int:
+    """Returns which of the keys held are modifiers, as GLFW tells them with keys."""
+    return sum(mask for mask, keys in _MODIFIER_KEYS if keys & held)
+
+
+def _anywhere(keys: str, found: Action) -> bool:
+    return found in [ACTIONS[name] for name in _ANYWHERE] and (keys.startswith("Ctrl+") or keys[1:].isdecimal())
 
 
 def _on_land(desk: Desk, event: PenEvent, ctrl: bool, moves: bool) -> Callable[[Desk, PenEvent], Gesture]:

@@ -16,6 +16,7 @@ import moderngl
 from imgui_bundle.imgui import backends
 
 from app import cursor, guide_marks, mask_veil, theme
+from app.actions.binding import lay_keys
 from app.actions.file_actions import close
 from app.callbacks import Callbacks
 from app.canvas.gallery import Gallery
@@ -28,6 +29,7 @@ from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
 from app.desk.holding.palette_shelf import PALETTES, bring_palette
 from app.desk.holding.size_lock import follow_view
+from app.desk.keys.kept_keys import kept_keys_file, read_keys
 from app.desk.moving import floating, held_box
 from app.desk.outside import bringing
 from app.desk.places import going
@@ -98,9 +100,12 @@ class Window:
         self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, scale)
         self.desk.graphics = f"{self.ctx.info['GL_RENDERER']}, {self.ctx.info['GL_VERSION']}"
         self._guard = FaultGuard(lambda: self.desk.told(_FAULT))
-        kept, self._kept_fault = read_window(kept_window_file())
+        kept, fault = read_window(kept_window_file())
         restore_window(self.desk, kept)
+        self.desk.keys.bound, keys_fault = read_keys(kept_keys_file())
+        lay_keys(self.desk.keys.bound)
         keep_folds_in(self.desk.remembered.folded)
+        self._faults = tuple(one for one in (fault, keys_fault) if one)
         self._remembering, self._views = Remembering(partial(box_of_window, handle, scale)), ViewsWatched()
         self.layout = Layout(self._guard)
         self.router = Router(self.desk, self.layout)
@@ -167,7 +172,7 @@ class Window:
             self.news.connect(source)
         self.desk.work(FindCards())  # first: its pictures are to be seen at once
         self.desk.work(ReadViews())
-        self.desk.work(TakeStock(self.desk.remembered.kept, self._kept_fault))
+        self.desk.work(TakeStock(self.desk.remembered.kept, self._faults))
 
     def _taken(self, worker: Worker, again: bool) -> None:
         """Works with an engine's thread; `again`: it has the painting back that is on the screen."""

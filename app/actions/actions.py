@@ -5,6 +5,8 @@ Menus, keys, tooltips and the list of keys are made from it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from app.actions.action import Action, asks
 from app.actions.edit_actions import EDIT_ACTIONS
 from app.actions.endless_actions import ENDLESS_ACTIONS
@@ -47,6 +49,12 @@ def by_key(keys: str) -> Action | None:
     return _BY_KEY.get(keys)
 
 
+def keys_mean(actions: Mapping[str, Action]) -> None:
+    """From now on each key press means the action that it has here."""
+    _BY_KEY.clear()
+    _BY_KEY.update(actions)
+
+
 _BY_KEY = {key: action for action in ACTIONS.values() for key in action.keys}
 
 
@@ -60,5 +68,10 @@ def perform(desk: Desk, action: Action) -> bool:
 
 def tip(name: str) -> str:
     """Returns an action's hint with its keys, for tooltips."""
-    action = ACTIONS[name]
-    return f"{action.hint}  ({action.keys[0]})" if action.keys else action.hint
+    return keyed(ACTIONS[name].hint, name)
+
+
+def keyed(text: str, name: str) -> str:
+    """Returns a text with the keys of an action behind it."""
+    keys = ACTIONS[name].keys
+    return f"{text}  ({keys[0]})" if keys else text

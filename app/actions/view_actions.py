@@ -145,8 +145,8 @@ VIEW_ACTIONS: dict[str, A] = {
     "history": A(
         "History", "View", ("Ctrl+H",), "Every step, to go back to", _strip("history"), ready, _open("history")
     ),
-    "back": A("Back", "Go", ("Alt+Left",), "To where you were before; the mouse’s back button, too", _steps(-1), _back),
-    "forward": A("Forward", "Go", ("Alt+Right",), "To where you came back from", _steps(1), _forward),
+    "back": A("Back", "Go", ("Alt+Left", "Back button"), "To where you were before", _steps(-1), _back),
+    "forward": A("Forward", "Go", ("Alt+Right", "Forward button"), "To where you came back from", _steps(1), _forward),
     "nearest": A("Nearest paint", "Go", ("Home",), "Go to the nearest paint", going.go_to_nearest, _lost),
     "type_place": A("Go to place", "Go", ("Ctrl+L",), "Type or copy level and place", _type_place),
     "bookmark": A("Bookmark this view", "Go", ("Ctrl+B",), "Keep this view under a name", _bookmark, ready),

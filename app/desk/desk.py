@@ -24,6 +24,7 @@ from app.desk.hand import Hand, radius_of
 from app.desk.holding.desk_record import KeptDesk
 from app.desk.holding.hand_sight import HandSight
 from app.desk.holding.pick_state import PickState
+from app.desk.keys.key_state import KeyState
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.land.land_state import LandState
@@ -120,6 +121,7 @@ class Desk:
     hand_sight: HandSight = field(default_factory=HandSight)
     known: Known = field(default_factory=Known)
     painting: bool = False
+    keys: KeyState = field(default_factory=KeyState)
     panels: bool = True
     insets: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom taken by panels
     pointer: Pointer = field(default_factory=Pointer)

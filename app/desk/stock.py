@@ -34,11 +34,11 @@ class Stock(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class TakeStock(FileWork):
-    """Reads all that comes along, and all of the artist's own; `window`: what that remembers, `fault`: why that is not
-    what it should be."""
+    """Reads all that comes along, and all of the artist's own; `window`: what that remembers, `windows_faults`: what is
+    wrong with its files, a line each."""
 
     window: KeptWindow = KeptWindow()  # noqa: RUF009  # it never changes
-    fault: str = ""
+    windows_faults: tuple[str, ...] = ()
 
     def carry_out(self) -> Stock:
         """Reads presets, papers and examples, those that come along and the artist's own."""
@@ -50,7 +50,7 @@ class TakeStock(FileWork):
         examples = example_state.arranged([*given, *kept])
         desk_kept, fault = read_kept(kept_file())
         palettes, worse = load_palettes(palettes_folder())
-        told = (*faults, *more, *torn, *bad, *lost, *worse, *(one for one in (fault, self.fault) if one))
+        told = (*faults, *more, *torn, *bad, *lost, *worse, *([fault] if fault else ()), *self.windows_faults)
         brushes, found = (*bundled, *own), found_again(self.window)
         return Stock(brushes, tuple(papers), tuple(examples), desk_kept, tuple(palettes), found, told)
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 LEFT, MIDDLE, RIGHT, BACK, FORWARD = 1, 2, 3, 4, 5
+PAD = 100  # and its number: a button beside a tablet
 ENDS = "up", "lost"  # kinds that end a stroke, which stays
 
 
@@ -18,7 +19,8 @@ class PenEvent:
     `done`, `back`: the keys Enter and Backspace, while something is drawn.  x, y: framebuffer pixels with fractions.
     pressure 0..1 (a mouse: 1 while its button is down).  Tilt in degrees, -90..90; `rotation` of
     the barrel in degrees clockwise, None where the pen does not tell it.  time: seconds of a steady clock.
-    button: 1 left or tip, 2 middle, 3 right, 4 back, 5 forward.  eraser: the pen is held the other way round.  dx, dy:
+    button: 1 left or tip, 2 middle, 3 right, 4 back, 5 forward, from 6 on what else there is; those beside a tablet
+    begin after PAD.  pad: the wheel is a ring beside a tablet.  eraser: the pen is held the other way round.  dx, dy:
     notches of the wheel, up and left positive.
     """
 
@@ -33,6 +35,7 @@ class PenEvent:
     button: int = 0
     eraser: bool = False
     pen: bool = False
+    pad: bool = False
     dx: float = 0.0
     dy: float = 0.0
 

@@ -15,6 +15,7 @@ _BUTTONS = {
     glfw.MOUSE_BUTTON_RIGHT: RIGHT,
     glfw.MOUSE_BUTTON_4: BACK,
     glfw.MOUSE_BUTTON_5: FORWARD,
+    **{glfw.MOUSE_BUTTON_6 + i: FORWARD + 1 + i for i in range(3)},
 }
 
 

@@ -14,16 +14,17 @@ import select
 import threading
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
-from app.input.events import BACK, FORWARD, LEFT, MIDDLE, RIGHT, PenEvent
+from app.input.devices import Axis, Device
+from app.input.events import BACK, FORWARD, LEFT, MIDDLE, PAD, RIGHT, PenEvent
 
 ALL_DEVICES, ALL_MASTERS = 0, 1
 DEVICE_CHANGED, BUTTON_PRESS, BUTTON_RELEASE, MOTION, HIERARCHY_CHANGED = 1, 4, 5, 6, 11
 GENERIC_EVENT = 35
 VALUATOR_CLASS = 2
 FLOATING_SLAVE, MASTER_POINTER, SLAVE_POINTER = 5, 1, 3
-_BUTTONS = {1: LEFT, 2: MIDDLE, 3: RIGHT, 8: BACK, 9: FORWARD}
+_BUTTONS = {1: LEFT, 2: MIDDLE, 3: RIGHT, 8: BACK, 9: FORWARD, **{i: i - 4 for i in range(10, 33)}}
 _WHEEL = {4: (0.0, 1.0), 5: (0.0, -1.0), 6: (1.0, 0.0), 7: (-1.0, 0.0)}
 _PATIENCE = 0.05  # seconds that whoever asks for events waits for the thread that reads them
 _ROLES = {"Abs Pressure": "pressure", "Abs Tilt X": "tilt_x", "Abs Tilt Y": "tilt_y"}
@@ -129,51 +130,6 @@ class DeviceInfo(ct.Structure):
     )
 
 
-@dataclass(slots=True)
-class Axis:
-    """What a valuator means, and its range."""
-
-    role: str
-    lo: float
-    hi: float
-
-    def value(self, raw: float) -> float:
-        """Pressure 0..1; tilt and rotation in degrees."""
-        if self.role == "pressure":
-            return min(1.0, max(0.0, (raw - self.lo) / (self.hi - self.lo))) if self.hi > self.lo else 0.0
-        if self.role == "rotation":
-            return raw / (self.hi - self.lo + 1.0) * 360.0 if self.hi > self.lo else 0.0
-        most = max(abs(self.lo), abs(self.hi))
-        degrees = raw if most <= 90 else raw / most * 90
-        return min(90.0, max(-90.0, degrees))
-
-
-@dataclass(slots=True)
-class Device:
-    """A slave pointer.  Events tell only the axes that changed, so `last` keeps each axis's value."""
-
-    name: str
-    axes: dict[int, Axis] = field(default_factory=dict)
-    last: dict[str, float] = field(default_factory=dict)
-
-    @property
-    def pen(self) -> bool:
-        """Tells whether it feels pressure."""
-        return any(axis.role == "pressure" for axis in self.axes.values())
-
-    @property
-    def eraser(self) -> bool:
-        """Tells whether it is a pen's other end, which only its name says."""
-        return "eraser" in self.name.lower()
-
-    def take(self, values: dict[int, float]) -> None:
-        """Raw valuators by number, as an event brings them."""
-        for number, raw in values.items():
-            axis = self.axes.get(number)
-            if axis is not None:
-                self.last[axis.role] = axis.value(raw)
-
-
 def unpacked(state: ValuatorState) -> dict[int, float]:
     """Returns the valuators of an event: a mask of numbers, then one value for each bit that is set."""
     out: dict[int, float] = {}
@@ -206,6 +162,9 @@ def pen_event(event: DeviceEvent, device: Device | None) -> PenEvent | None:
             if kind == BUTTON_RELEASE:
                 return None
             word, (fields["dx"], fields["dy"]) = "wheel", _WHEEL[detail]
+            fields["pad"] = device is not None and device.pad
+        elif device is not None and device.pad:
+            fields["button"] = PAD + detail
         elif detail in _BUTTONS:
             fields["button"] = _BUTTONS[detail]
         else:

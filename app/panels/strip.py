@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 
 from app import icons, theme
 from app.actions.action import Action
-from app.actions.actions import ACTIONS
+from app.actions.actions import keyed
 from app.desk.desk import Desk, Hear
 from app.panels.controls import widgets as w
 from app.panels.examples.examples_panel import ExamplesPanel
@@ -77,7 +77,7 @@ class StripPanel:
         imgui.text_disabled(panel.hint(desk) or row.hint)
         panel.bar(desk)
         imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
-        closed = w.icon_button("close", icons.CLOSE, f"Close  ({ACTIONS[desk.strip].keys[0]})")
+        closed = w.icon_button("close", icons.CLOSE, keyed("Close", desk.strip))
         panel.draw(desk)
         if closed:
             desk.strip = ""

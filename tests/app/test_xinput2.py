@@ -3,8 +3,10 @@
 import ctypes as ct
 
 import pytest
+from imgui_bundle import imgui  # noqa: F401  # before glfw, so that both use one libglfw
 
 from app.input import xinput2 as x
+from app.keys import pointer_chord
 
 
 def report(kind, *, detail=0, values=None, at=(10.25, 20.75), time=5000):
@@ -99,9 +101,15 @@ def test_presses_and_releases(detail, button):
         assert (found.kind, found.button) == (word, button)
 
 
-def test_other_buttons_mean_nothing():
+def test_other_buttons_are_told_by_their_number_and_those_beside_a_tablet_apart():
     event, _keep = report(x.BUTTON_PRESS, detail=10)
-    assert x.pen_event(event, None) is None
+    assert x.pen_event(event, None).button == 6
+    pad = x.Device("Wacom Intuos Pro M Pad pad")
+    event, _keep = report(x.BUTTON_PRESS, detail=1)
+    assert pointer_chord(x.pen_event(event, pad), 0) == "Pad button 1"
+    event, _keep = report(x.BUTTON_PRESS, detail=4)
+    assert pointer_chord(x.pen_event(event, pad), 0) == "Ring up"
+    assert pointer_chord(x.pen_event(event, x.Device("Touchpad")), 0) == "Wheel up"
 
 
 def test_the_eraser_is_known_by_its_name():

@@ -70,7 +70,7 @@ def _favourite(desk: Desk, digit: int, preset: Preset) -> bool:
     corner, size = imgui.get_cursor_screen_pos(), [_PART * side * desk.scale for side in THUMB]
     pressed = imgui.invisible_button(f"favourite {digit}", ImVec2(*size))
     w.named(f"favourite {digit}")
-    w.tooltip(f"{preset.name}  (Ctrl+{digit})\nShift keeps the present size")
+    w.tooltip(f"{actions.keyed(preset.name, f'favourite_{digit}')}\nShift keeps the present size")
     chosen, end = preset.name == desk.hand.preset, ImVec2(corner.x + size[0], corner.y + size[1])
     draw_picture(desk, preset, corner, end, lit=chosen or imgui.is_item_hovered())
     painter, painted = imgui.get_window_draw_list(), f"preset {preset.name}" in desk.pictures
@@ -103,7 +103,7 @@ def _middle(desk: Desk, wide: float, em: float) -> None:
     for i, (name, rgb, hint) in enumerate(
         (
             ("pop-up now", desk.hand.colour, "The colour you paint with"),
-            ("pop-up other", desk.hand.other_colour, "The other colour; click to swap (X)"),
+            ("pop-up other", desk.hand.other_colour, actions.keyed("The other colour; click to swap", "swap")),
         )
     ):
         imgui.set_cursor_pos(ImVec2(left + wide - patch * 0.62, top + i * (patch * 0.62 + 5 * desk.scale)))

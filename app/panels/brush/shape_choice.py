@@ -22,7 +22,7 @@ def draw(desk: Desk, side: float) -> None:
         return
     for name in DRAWN:
         action, tool = actions.ACTIONS[name], TOOLS[name]
-        if imgui.menu_item(f"{tool.icon}  {tool.title}", action.keys[0], desk.hand.tool == name)[0]:
+        if imgui.menu_item(f"{tool.icon}  {tool.title}", (*action.keys, "")[0], desk.hand.tool == name)[0]:
             actions.perform(desk, action)
         w.named(f"shape {name}")
         w.tooltip(tool.hint)

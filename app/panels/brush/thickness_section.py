@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.actions.actions import ACTIONS
+from app.actions.actions import keyed
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from engine.brush.settings import AUTO
@@ -35,7 +35,7 @@ def draw_thickness(desk: Desk) -> None:
                 desk.hand.change(height=round(value, 1))
                 _show(desk, bool(value))
     elif brush.row.lays_ink:
-        hint = f"How thick the paint lies: it shows in the light ({ACTIONS['light'].keys[0]})"
+        hint = keyed("How thick the paint lies: it shows in the light", "light")
         changed, value = w.slider("Impasto", brush.impasto, (0.0, _THICK), hint, form="%.1f px")
         if changed:
             desk.hand.change(impasto=round(value, 1))

@@ -7,6 +7,7 @@ from functools import lru_cache
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
+from app.actions.actions import keyed, tip
 from app.desk.colours import MOST_CHROMA, RGB, from_hex, from_oklch, to_hex, to_oklch
 from app.desk.desk import Desk
 from app.panels.colour.palette_section import draw_palette
@@ -71,11 +72,12 @@ class ColourPanel:
         w.swatch("now", desk.hand.colour, hint, (wide * 0.26, height))
         _dragged(desk, desk.hand.colour)
         imgui.same_line()
-        if w.swatch("other", desk.hand.other_colour, "The other colour; click to swap (X)", (wide * 0.16, height)):
+        hint = keyed("The other colour; click to swap", "swap")
+        if w.swatch("other", desk.hand.other_colour, hint, (wide * 0.16, height)):
             desk.hand.swap()
         _dragged(desk, desk.hand.other_colour)
         imgui.same_line()
-        if w.icon_button("swap", icons.SWAP, "Swap the two colours (X)"):
+        if w.icon_button("swap", icons.SWAP, tip("swap")):
             desk.hand.swap()
         imgui.same_line()
         imgui.set_next_item_width(-1)

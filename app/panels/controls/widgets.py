@@ -9,6 +9,7 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme, trace
+from app.panels.controls.fields_in_sight import note_slider
 from app.panels.controls.folds import folding_header
 
 Col = imgui.Col_
@@ -190,6 +191,7 @@ def slider(
         f"##{label}", value, lo, hi, form if typing or imgui.get_io().key_ctrl else "", flags
     )
     _hidden_frame(False, typing)
+    note_slider()
     named(label)
     if not typing:
         pad = imgui.get_style().frame_padding

@@ -7,8 +7,6 @@ from typing import Protocol
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app import theme
-from app.actions.actions import ACTIONS, MENUS
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
@@ -22,6 +20,7 @@ from app.panels.dialogs.export_dialog import ExportDialog
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.frame_dialog import FrameDialog
 from app.panels.dialogs.ground_dialog import GroundDialog
+from app.panels.dialogs.keys_dialog import Keys
 from app.panels.dialogs.merge_dialog import MergeDialog
 from app.panels.dialogs.overtaken import OvertakenSave
 from app.panels.dialogs.paper_choice import PaperChoice, PaperDialog
@@ -206,44 +205,6 @@ class Unsaved:
         return not (back or going)
 
 
-class Keys:
-    """Lists the keys."""
-
-    title = "Keys"
-
-    def draw(self, desk: Desk) -> bool:
-        """Draws it into the present window."""
-        rows = [
-            ("Wheel", "Zoom about the pointer"),
-            ("Space + drag, middle button", "Pan"),
-            ("Shift + Space + drag", "Turn the view"),
-            ("Ctrl + Space + drag", "Zoom"),
-            ("Ctrl + click, right button dragged", "Pick a colour"),
-            ("Right click, a pen's button", "Pop-up palette: favourites, colours, zoom"),
-            ("Alt + drag, with the brush", "Its radius sideways, its hardness up and down"),
-            ("Shift + drag or click", "A straight line"),
-        ]
-        rows += [
-            (", ".join(a.keys), a.title)
-            for menu in MENUS
-            for a in ACTIONS.values()
-            if a.menu.partition("/")[0] == menu and a.keys
-        ]
-        half = -(-len(rows) // 2)
-        em = imgui.get_font_size()
-        if imgui.begin_table("keys", 4, 0, ImVec2(em * 42, 0)):
-            for i in range(half):
-                imgui.table_next_row()
-                for keys, title in rows[i : i + half + 1 : half]:
-                    imgui.table_next_column()
-                    imgui.text_colored(theme.vec(theme.ACCENT), keys)
-                    imgui.table_next_column()
-                    imgui.text_unformatted(title)
-            imgui.end_table()
-        imgui.spacing()
-        return not w.default_button("Close", "Close the list", width=em * 7)
-
-
 class About:
     """Says what the program is."""
 
@@ -311,6 +272,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "adjust": lambda desk: AdjustDialog(),
     "unclosed": Cards,
     "bin": Bin,
-    "keys": lambda desk: Keys(),
+    "keys": Keys,
+    "keys from": file_browser.choosing_keys,
+    "keys to": file_browser.writing_keys,
     "about": lambda desk: About(),
 }

@@ -13,12 +13,14 @@ from imgui_bundle import portable_file_dialogs as pfd
 from immutables import Map
 
 from app import icons, theme
+from app.actions.binding import BringKeys
 from app.desk.desk import Desk
 from app.desk.examples import example_work
 from app.desk.exporting.export_areas import export_wish
 from app.desk.exporting.export_state import EXPORT_FORMATS
 from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
 from app.desk.holding.palette_shelf import PALETTES, WritePalette, bring_palette, palette_to_write
+from app.desk.keys.kept_keys import GiveKeys
 from app.desk.outside import bringing, pictured
 from app.desk.outside.opened_files import OF_PAINTINGS
 from app.desk.presets import stem_of
@@ -297,3 +299,14 @@ def writing_palette(desk: Desk) -> SystemDialog | Browser:
     palette = palette_to_write(desk)
     name = f"{stem_of(palette.name)}.gpl"
     return _chooser(desk, "Write a palette", (".gpl",), lambda d, path: d.work(WritePalette(palette, path)), name)
+
+
+def choosing_keys(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a map of keys."""
+    return _chooser(desk, "Bring in keys", (".json",), lambda d, path: d.work(BringKeys(path)))
+
+
+def writing_keys(desk: Desk) -> SystemDialog | Browser:
+    """Asks where to write the artist's keys."""
+    bound = desk.keys.bound
+    return _chooser(desk, "Give keys away", (".json",), lambda d, path: d.work(GiveKeys(bound, path)), "keys.json")

@@ -43,7 +43,7 @@ def draw_light(desk: Desk) -> None:
     imgui.align_text_to_frame_padding()
     imgui.text("Light")
     imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
-    if w.icon_button("close light", icons.CLOSE, f"Back to the plain painting  ({actions.ACTIONS['light'].keys[0]})"):
+    if w.icon_button("close light", icons.CLOSE, actions.keyed("Back to the plain painting", "light")):
         state.on = False
     _dome(desk)
     changed, depth = w.slider(

@@ -33,10 +33,10 @@ _RECENT = 3
 
 
 class Try(NamedTuple):
-    """A thing to try: what is said of it, the keys that do it, and what a press on it does."""
+    """A thing to try: what is said of it, what does it, an action or a word, and what a press on it does."""
 
     title: str
-    keys: str
+    by: str
     hint: str
     do: Callable[[Desk], None]
 
@@ -60,8 +60,8 @@ TRIES = (
     Try("Zoom in, and on, and on", "Wheel", "Paint keeps showing new detail, however near you go", _does("in")),
     Try("Paint with granite, then zoom into it", "", "Takes the brush Granite", _granite),
     Try("Brushes and colours under the pointer", "Right click", "Favourites, wheel and zoom", _does("pop_up")),
-    Try("Make a texture of your own", "L", "The texture lab: paint how coarse and how fine it is", _does("lab")),
-    Try("See the painting as land", "Ctrl+T", "Light and dark are heights; fly over them", _does("land")),
+    Try("Make a texture of your own", "lab", "The texture lab: paint how coarse and how fine it is", _does("lab")),
+    Try("See the painting as land", "land", "Light and dark are heights; fly over them", _does("land")),
 )
 
 
@@ -160,8 +160,9 @@ class StartPage:
             w.tooltip(row.hint)
             painter, y = imgui.get_window_draw_list(), corner.y + 0.28 * em
             painter.add_text(ImVec2(corner.x + 0.3 * em, y), theme.packed(theme.TEXT), row.title)
-            right = corner.x + wide - imgui.calc_text_size(row.keys).x - 0.3 * em
-            painter.add_text(ImVec2(right, y), theme.packed(theme.ACCENT), row.keys)
+            keys = (*ACTIONS[row.by].keys, "")[0] if row.by in ACTIONS else row.by
+            right = corner.x + wide - imgui.calc_text_size(keys).x - 0.3 * em
+            painter.add_text(ImVec2(right, y), theme.packed(theme.ACCENT), keys)
 
     def _begin(self, desk: Desk) -> None:
         for i, name in enumerate(("new", "open")):

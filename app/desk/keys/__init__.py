@@ -1,0 +1,1 @@
+"""What the artist has bound to keys, to buttons and to wheels."""
