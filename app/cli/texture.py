@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
     """Carries the command out; returns the exit status."""
     name = options.maker
     if name == "example":
-        from app.cli import example_command
+        from app.cli.of_examples import example_command
 
         return example_command.run(options.words)
     if name == "doctor":
@@ -73,7 +73,7 @@ def run(options: argparse.Namespace) -> int:
 
         return advice.run(options.words)
     if name == "mask":
-        from app.cli import mask_command
+        from app.cli.of_examples import mask_command
 
         return mask_command.run(options.words)
     if name == "learn":

@@ -7,13 +7,13 @@ reckoned in another order, so the bits are the same.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from numba import config
 
 from engine.numeric.kernel import kernel
 
-MadeT = TypeVar("MadeT", bound=Callable[..., Any])
+MadeT = TypeVar("MadeT", bound=Callable[..., object])
 
 
 def abreast(function: MadeT) -> MadeT:

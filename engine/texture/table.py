@@ -177,7 +177,7 @@ def instance(
     return _refined(made, parameters, maps)
 
 
-def refinement(parameters: Mapping[str, Any]) -> tuple[float, int] | None:
+def refinement(parameters: Mapping[str, object]) -> tuple[float, int] | None:
     """Returns how strong learnt detail is, and how many octaves, as parameters tell; None where they ask for none.
     TextureError names the field."""
     told = parameters.get("detail")
@@ -189,7 +189,7 @@ def refinement(parameters: Mapping[str, Any]) -> tuple[float, int] | None:
     return None if told is None else (float(values[0]), int(values[1]))
 
 
-def _refined(made: Instance, parameters: Mapping[str, Any], maps: ImageSource | None) -> Instance:
+def _refined(made: Instance, parameters: Mapping[str, object], maps: ImageSource | None) -> Instance:
     """Returns a texture refined by what was learnt of it, if there is that."""
     how = refinement(parameters)
     return made if how is None or maps is None else learnt(made, Learning(maps, *how))

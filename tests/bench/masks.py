@@ -106,7 +106,8 @@ def _stroke(wrong: np.ndarray, mask: np.ndarray) -> Mark:
     radius = max(1.0, 0.5 * float(far[y, x]))
     ways = [(np.cos(a), np.sin(a)) for a in np.arange(WAYS) * np.pi / WAYS]
     lines = [[_end(far, (x, y), (s * dx, s * dy), radius) for s in (-1, 1)] for dx, dy in ways]
-    return Mark(bool(mask[y, x]), tuple(max(lines, key=lambda ends: math.dist(ends[0], ends[1]))), radius)
+    longest = max(lines, key=lambda ends: math.dist(ends[0], ends[1]))
+    return Mark(bool(mask[y, x]), tuple(longest), radius)
 
 
 def _end(far: np.ndarray, at: tuple[int, int], way: tuple[float, float], radius: float) -> tuple[float, float]:

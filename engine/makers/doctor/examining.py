@@ -15,7 +15,7 @@ from engine.makers.doctor.measuring import Grain, grain_of
 from engine.makers.doctor.trying import TRIED
 from engine.makers.heeger_bergen import part_looked_at
 
-LOOKED_AT = 256  # pixels along the sides of what is looked at, and of what is made
+_LOOKED_AT = 256  # pixels along the sides of what is looked at, and of what is made
 _LEAST = 16  # pixels along them
 _OBJECTS, _GRAIN = 0.12, 0.04  # of `Grain.structure`: above it are things, below it is even grain
 _NEAR = 1.25  # times as far off as another: as good
@@ -79,8 +79,8 @@ def examined(picture: np.ndarray, seed: int = 0, flat: bool = False) -> Iterator
 
 def middle_of(picture: np.ndarray) -> np.ndarray:
     """Returns the middle of a picture, as large as is looked at."""
-    top, left = (max(0, (n - LOOKED_AT) // 2) for n in picture.shape[1:])
-    return np.ascontiguousarray(picture[:, top : top + LOOKED_AT, left : left + LOOKED_AT])
+    top, left = (max(0, (n - _LOOKED_AT) // 2) for n in picture.shape[1:])
+    return np.ascontiguousarray(picture[:, top : top + _LOOKED_AT, left : left + _LOOKED_AT])
 
 
 def kinds_of(grain: Grain) -> tuple[str, ...]:

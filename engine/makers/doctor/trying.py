@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 from immutables import Map
@@ -36,7 +35,7 @@ class MakerTried:
 
     title: str
     maker: str
-    members: MappingProxyType[str, Any]
+    members: MappingProxyType[str, str]
     make: _Make
 
 
@@ -105,7 +104,7 @@ def _of_structure(structure: str, make: _Make) -> MakerTried:
     return MakerTried(titles[structure], "match", MappingProxyType({"structure": structure}), make)
 
 
-_NOTHING: MappingProxyType[str, Any] = MappingProxyType({})
+_NOTHING: MappingProxyType[str, str] = MappingProxyType({})
 # From those that copy nothing to those that copy most.
 TRIED = {
     "scattered": MakerTried("Scattered", "impulse", _NOTHING, _scattered),

@@ -7,7 +7,6 @@ No layer changes: the strokes of each solid are kept with the painting by its na
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from immutables import Map
 
@@ -24,7 +23,7 @@ WIDEST_TOUCH = 96.0  # voxels of a radius: a stroke never meets itself around th
 TOUCHES_CAP, TOUCH_POINTS_CAP = 20_000, 20_000  # strokes of a solid, points of one of them
 SOLIDS_CAP = 256  # names
 _REACH = 1e6
-_NOTHING: Map[str, Any] = Map()
+_NOTHING: Map[str, object] = Map()
 TouchPlace = tuple[float, float, float, float]
 
 
@@ -41,7 +40,7 @@ class Touch:
     points: tuple[TouchPlace, ...]
     brush: Brush
     breaks: tuple[int, ...] = ()
-    extra: Map[str, Any] = _NOTHING
+    extra: Map[str, object] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +48,7 @@ class CleanSolid:
     """Takes all paint off a solid."""
 
     solid: str
-    extra: Map[str, Any] = _NOTHING
+    extra: Map[str, object] = _NOTHING
 
 
 TouchCommand = Touch | CleanSolid
