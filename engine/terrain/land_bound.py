@@ -40,11 +40,13 @@ class Remainder(NamedTuple):
 
 
 class _Laid(NamedTuple):
-    """An ink at a level: its amplitude at most, and how far neighbours are apart."""
+    """An ink at a level: its amplitude at most, and how far neighbours are apart; `usual`: the root of its mean square,
+    which E, as a mean of neighbours, makes no larger."""
 
     ink: Instance
     amplitude: float
     apart: float
+    usual: float
 
 
 def layer_bound(
@@ -57,7 +59,7 @@ def layer_bound(
         return None
     # Heights lie on a grid of their own, from level 0 up on the canvas'.
     hard = rms = _GRID + max(0, -level) * float(pyramid.step)
-    for laid in _inks(layer, level, around, cache):
+    for laid in _inks(layer, level, around, rect.area, cache):
         found = _of_ink(laid, level, rect)
         if found is None:
             return None
@@ -82,7 +84,8 @@ def nothing_lies(layer: Layer, level: int, rect: Rect, cache: TileCache | None =
     return not evaluate(pyramid, level, around, cache).data.any()
 
 
-def _inks(layer: Layer, level: int, around: Rect, cache: TileCache | None) -> list[_Laid]:
+def _inks(layer: Layer, level: int, around: Rect, area: int, cache: TileCache | None) -> list[_Laid]:
+    """The inks around a rectangle of so many pixels, to which all that lies around is counted."""
     planes = evaluate(layer.pyramid, level, around, cache)
     found = []
     for i, ink in enumerate(planes.inks):
@@ -90,7 +93,8 @@ def _inks(layer: Layer, level: int, around: Rect, cache: TileCache | None) -> li
         if amplitude.any():
             steps = (np.abs(np.diff(amplitude, axis=axis)) for axis in (0, 1))
             apart = max(float(step.max()) for step in steps) + float(layer.pyramid.step)
-            found.append(_Laid(ink, float(amplitude.max()), apart))
+            most, usual = float(amplitude.max()), math.sqrt(float((amplitude * amplitude).sum()) / area)
+            found.append(_Laid(ink, most, apart, min(most, usual)))
     return found
 
 
@@ -99,7 +103,7 @@ def _of_ink(laid: _Laid, level: int, rect: Rect | None) -> Remainder | None:
     found = bound(laid.ink, level, own)
     if found is None:
         return None
-    return Remainder(laid.amplitude * found.hard + _STEPS_APART * laid.apart * found.edge, laid.amplitude * found.rms)
+    return Remainder(laid.amplitude * found.hard + _STEPS_APART * laid.apart * found.edge, laid.usual * found.rms)
 
 
 def _of_inks(inks: list[_Laid], level: int) -> Remainder | None:
@@ -126,6 +130,6 @@ def _stored(layer: Layer, level: int, rect: Rect, ground: float) -> list[tuple[R
                 weight * float(plane.max(initial=0.0)) for weight, plane in zip(LUMINANCES, planes, strict=True)
             )
             laid[ink] = max(laid.get(ink, 0.0), brightest)
-    inks = [_Laid(ink, amplitude, 2.0 * amplitude) for ink, amplitude in laid.items() if amplitude]
+    inks = [_Laid(ink, amplitude, 2.0 * amplitude, amplitude) for ink, amplitude in laid.items() if amplitude]
     stored = Remainder(most, min(most, math.sqrt(power / rect.area)))
     return [(stored, inks)] if most or inks else []
