@@ -103,7 +103,8 @@ def windows_of(
     side = cells + 1
     heights = np.empty((len(levels), side, side), np.float32)
     colours = np.empty((len(levels), side, side, 3), np.uint8)
-    tops: list[np.ndarray] = []
+    mips = mipmap_of(cells)
+    tops = np.empty((len(levels), int((mips[1] * mips[1]).sum())), np.float32)
     before = np.empty(0, np.float32)  # the colours of the window before, linear
     places: list[tuple[float, float, float]] = []
     for w, level in enumerate(levels):
@@ -119,11 +120,11 @@ def windows_of(
         heights[w] = h
         before = paint
         colours[w] = np.rint(np.sqrt(np.clip(paint, 0.0, 1.0)) * 255.0)
-        tops.append(maxima(h))
+        tops[w] = maxima(h)
         places.append(place)
     eye = math.ldexp(camera.height, finest - camera.level)
     sea = math.ldexp(-base, finest) if wet else -math.inf
-    return Windows(heights, np.stack(tops), np.stack(mipmap_of(cells)), np.array(places), colours, levels, eye, sea)
+    return Windows(heights, tops, np.stack(mips), np.array(places), colours, levels, eye, sea)
 
 
 def _pixel_of(camera: Camera, level: int) -> Pixel:

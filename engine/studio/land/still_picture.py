@@ -12,6 +12,7 @@ from fractions import Fraction
 from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.files.fault import Cancelled
+from engine.keeping.memory import give_back
 from engine.numeric.address import Rect
 from engine.painting.value import Painting
 from engine.studio.easel import Easel
@@ -47,9 +48,11 @@ class StillPictures(Owned):
         painting, send, turn = self._easel.session.painting, self._easel.send, self._turn
 
         def work() -> None:
-            with turn, suppress(Cancelled):
-                if not gone.is_set():
-                    _take(painting, request, gone.is_set, send)
+            with turn:
+                with suppress(Cancelled):
+                    if not gone.is_set():
+                        _take(painting, request, gone.is_set, send)
+                give_back()
 
         threading.Thread(target=work, name="inkfall land", daemon=True).start()
 
@@ -78,6 +81,7 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
     first = next(iter(refinement(windows, replace(shot, samples=1), wide, gone, quarter=False)))
     send(StillCome(request.number, frozen(first.picture), _COARSER_FIRST, last=False))
     shot, windows = shown(1, CELLS)
+    give_back()  # what came and went while heights were worked out: as much again as the windows, and more
     found = picture_error(seen, windows, camera, request.size)
     error = None if found is None else (found.rms, found.hard)
     for stage in refinement(windows, shot, wide, gone, quarter=False):
