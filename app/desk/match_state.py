@@ -92,7 +92,7 @@ class MatchState:
         first, second = self.examples
         if first is None:
             return None
-        given: dict[str, Any] = {**first, "size": (self.size, self.size)}
+        given: dict[str, Any] = {**first, "size": (self.size, self.size), "detail": "learnt"}
         usual = {"seed": 0}
         if self.kept == "none":
             usual |= {"levels": LEVELS, "orientations": ORIENTATIONS, "iterations": ITERATIONS}

@@ -12,16 +12,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.numeric.grid import snapped
 from engine.painting.textures import LEARNT_SHA, Around, Texture
 from engine.texture.image import ImageSource
 from engine.texture.learnt import least_squares
 from engine.texture.learnt.inks import REFINABLE
 from engine.texture.learnt.maps import as_picture, maps_of
 from engine.texture.learnt.refinement import Learning, channels_of
+from engine.texture.matching import noise
 from engine.texture.record import LEARNT
 from engine.texture.sample import coloured
 from engine.texture.table import KINDS, refinement
 
+_SMALL = 48  # pixels along the sides of a picture that nobody sees
 _KINDS = (*REFINABLE, "canvas", "example")
 
 
@@ -89,3 +92,11 @@ class Finer:
             return (first % size + np.arange(count)) % size
         found = (first % (2 * size) + np.arange(count)) % (2 * size)
         return np.minimum(found, 2 * size - 1 - found)
+
+
+def make_once() -> None:
+    """Learns from a small picture and makes it finer, so that all kernels are compiled and kept."""
+    picture = snapped(np.ascontiguousarray(0.5 + 0.2 * noise(4, (_SMALL, _SMALL), 1), np.float32))
+    picture[3] = np.float32(1.0)
+    source = ImageSource.of("", picture)
+    Finer(source, Learning(maps_for("", source))).planes(Rect(0, 0, _SMALL, _SMALL))

@@ -29,6 +29,7 @@ from engine.painting.layering.touch_command import NO_TOUCHES, Touches
 from engine.painting.rendering import strips
 from engine.texture.image import ImageSource
 from engine.texture.raster import planes_of, put_plainly
+from engine.texture.record import LEARNT
 
 PIXELS_CAP = 1 << 26  # of a picture: 1 GiB as float32 planes
 DETAIL_CAP = 16  # finer levels that a captured rectangle may hold
@@ -105,7 +106,8 @@ def _read(path: str, folder: Path | None) -> np.ndarray:
 def captured(members: Fields, root: Group) -> np.ndarray:
     """Returns a rectangle of the canvas as a picture, float32 (4, h, w) on the grid."""
     level, x, y, width, height = members.integers("rect", 5, limit=PLACE_LIMIT)
-    detail = members.integer("detail", 0, lo=0, hi=DETAIL_CAP)
+    learnt = members.all().get("detail") == LEARNT  # of what is made of it, not of the canvas
+    detail = 0 if learnt else members.integer("detail", 0, lo=0, hi=DETAIL_CAP)
     if abs(level) > LEVEL_LIMIT or width < 1 or height < 1 or (width * height) << (2 * detail) > PIXELS_CAP:
         raise members.fault("rect", f"[L, X, Y, W, H] of at most {PIXELS_CAP} pixels at the finest level")
     name = members.text("layer", None)

@@ -18,16 +18,24 @@ from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.arithmetic import FINE
 from engine.numeric.grid import snapped_to, step_of
+from engine.numeric.similarity import Dyadic, Similarity
 from engine.painting.commands import AddPicture, AddPictures
 from engine.painting.layering.pictures_member import Brought, BroughtGroup, BroughtPicture
 from engine.painting.value import Painting, with_node
 from engine.texture.image import ImageSource
+from engine.texture.placed import as_placed
 from engine.texture.planes import Planes
+from engine.texture.record import Instance
 
 
 def with_picture(painting: Painting, command: AddPicture) -> Painting:
     """Returns a painting with a layer more, that begins with a texture's picture.  LayerError if it has none."""
-    paint = picture_paint(_picture(painting, command), command, painting.grid)
+    source = _picture(painting, command)
+    detail = _detail(painting, command)
+    if detail is None:
+        paint = picture_paint(source, command, painting.grid)
+    else:
+        paint = laid_picture(source, command.level, command.at, painting.grid, detail)
     return with_node(painting, Layer(layers.next_id(painting.root), command.name, pyramid=paint, role=command.role))
 
 
@@ -82,13 +90,27 @@ def _with_group(painting: Painting, command: AddPictures, paint: Callable[[Broug
     return replace(made, root=layers.checked(made.root), active=group.name)
 
 
-def laid_picture(source: ImageSource, level: int, at: tuple[int, int], grid: int) -> Pyramid:
+def _detail(painting: Painting, command: AddPicture) -> Instance | None:
+    """Returns the picture as ink where its texture is refined below its own pixels; else None."""
+    texture = painting.textures[command.texture]
+    if command.part is not None or command.role or texture.maps is None or texture.source is None:
+        return None
+    x, y = command.at
+    made = texture.instance({"period": texture.source.width}, command.level, 0)
+    away = Similarity(Dyadic.of(1, 0), Dyadic.of(x, y, command.level))
+    return as_placed(made, away, command.level)
+
+
+def laid_picture(
+    source: ImageSource, level: int, at: tuple[int, int], grid: int, detail: Instance | None = None
+) -> Pyramid:
     """Returns the paint of a picture that is there, with its corner at pixel `at` of a level.
 
-    On level 0 it is the layer's ground, which a file holds as the picture itself, where 8 or 16 bits tell it.
+    On level 0 it is the layer's ground, which a file holds as the picture itself, where 8 or 16 bits tell it; but not
+    with `detail`, an ink that lies all over it.
     """
     x, y = at
-    pixels = source.straight() if level == 0 and grid == FINE else None
+    pixels = source.straight() if level == 0 and grid == FINE and detail is None else None
     if pixels is not None:
         return lay_ground(pixels, x, y)
     rect = Rect.at(x, y, source.width, source.height)
@@ -98,7 +120,11 @@ def laid_picture(source: ImageSource, level: int, at: tuple[int, int], grid: int
         out = np.zeros((4, TILE, TILE), np.float32)
         found = source.planes(Rect.at(part.x0 - x, part.y0 - y, part.width, part.height))
         out[:, *part.slices(key.rect)] = found if grid == FINE else snapped_to(found, step_of(grid))
-        return Planes(out) if out.any() else None
+        if detail is None or not out.any():
+            return Planes(out) if out.any() else None
+        ink = np.zeros((3, TILE, TILE), np.float32)
+        ink[:, *part.slices(key.rect)] = 1.0
+        return Planes(np.concatenate([out, ink]), (detail,))
 
     empty = Pyramid(grid=grid)
     return replace(commit(empty, Pasted(level, list(rect.tiles(level)), values)), grid=grid)

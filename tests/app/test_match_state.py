@@ -29,7 +29,9 @@ def test_nothing_is_asked_for_without_an_example_and_changes_once():
     made.ask(posted.append)
     made.ask(posted.append)
     assert posted[1:] == [
-        MatchSet("match", Map({"rect": (3, -5, 7, 30, 40), "size": (256, 256), "structure": "objects"}))
+        MatchSet(
+            "match", Map({"rect": (3, -5, 7, 30, 40), "size": (256, 256), "detail": "learnt", "structure": "objects"})
+        )
     ]
 
 
@@ -37,11 +39,13 @@ def test_what_is_not_changed_is_not_told():
     made = state("a.png")
     made.levels = 3
     made.axes[0] = 0.5
-    assert made.arguments() == Map({"path": "/pictures/a.png", "size": (256, 256), "structure": "objects"})
+    assert made.arguments() == Map(
+        {"path": "/pictures/a.png", "size": (256, 256), "detail": "learnt", "structure": "objects"}
+    )
     made.keep("none")
-    assert set(made.arguments()) == {"path", "size", "levels", "axes"}
+    assert set(made.arguments()) == {"path", "size", "detail", "levels", "axes"}
     made.levels, made.axes[0] = 4, 1.0
-    assert made.arguments() == Map({"path": "/pictures/a.png", "size": (256, 256)})
+    assert made.arguments() == Map({"path": "/pictures/a.png", "size": (256, 256), "detail": "learnt"})
     made.bands = {(0, 1): (2.0, None), (1, 0): (1.0, None), (-1, None): (1.0, ((0.0, 0.0), (1.0, 0.5)))}
     made.axes[1] = 0.5
     told = made.arguments()
@@ -66,7 +70,7 @@ def test_a_mixture_is_one_and_a_series_only_for_use():
     assert parse(to_json(command)) == command
     for how, members in (("palette", set()), ("bands", {"split"})):
         made.how = how
-        assert set(made.arguments()) == {"path", "pattern", "how", "size", *members}
+        assert set(made.arguments()) == {"path", "pattern", "how", "size", "detail", *members}
         assert not made.by_pressure
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from immutables import Map
 
@@ -45,6 +46,7 @@ class _Lay(FileWork):
     path: Path
     place: Place
     role: str = ""
+    detail: float | None = None
 
     def carry_out(self) -> tuple[int, int]:
         from engine.files.images import picture_size  # here: it takes its time to load
@@ -52,7 +54,7 @@ class _Lay(FileWork):
         return picture_size(self.path)
 
     def arrive(self, desk: Desk, found: tuple[int, int]) -> None:
-        lay(desk, self.path, self.path.stem, found, self.place, self.role)
+        lay(desk, self.path, self.path.stem, found, self.place, self.role, self.detail)
 
 
 def picture_level(seen: int) -> int:
@@ -60,24 +62,36 @@ def picture_level(seen: int) -> int:
     return 0 if _FAR < seen < 0 else seen
 
 
-def lay(desk: Desk, path: Path, stem: str, size: tuple[int, int], place: Place, role: str = "") -> None:
-    """Lays a picture of `size` (width, height) on a layer of its own, with its middle at a place."""
+def lay(
+    desk: Desk,
+    path: Path,
+    stem: str,
+    size: tuple[int, int],
+    place: Place,
+    role: str = "",
+    detail: float | None = None,
+) -> None:
+    """Lays a picture of `size` (width, height) on a layer of its own, with its middle at a place; `detail`: how strong
+    ink goes on below its pixels, 0..1, None for none."""
     level = picture_level(desk.view.shown_level)
     x, y = place.pixel(level)
     texture, at = free_texture_name(desk, stem), (x - size[0] // 2, y - size[1] // 2)
-    desk.post(Do(DefineTexture(texture, "image", Map({"path": str(path.absolute())}))))
+    told: dict[str, Any] = {"path": str(path.absolute())}
+    if detail is not None:
+        told |= {"detail": "learnt", "strength": round(detail, 3)}
+    desk.post(Do(DefineTexture(texture, "image", Map(told))))
     name = free_layer_name(desk, stem)
     desk.post(Do(AddPicture(name, texture, level, at, role)))
-    told = f"Drag “{name}” where it belongs"
-    desk.say(f"Laying “{name}”.  {told}" if size[0] * size[1] >= _SLOW else told)
+    hint = f"Drag “{name}” where it belongs"
+    desk.say(f"Laying “{name}”.  {hint}" if size[0] * size[1] >= _SLOW else hint)
     desk.hand.use("move")
 
 
-def as_layer(desk: Desk, path: Path, place: Place) -> None:
+def as_layer(desk: Desk, path: Path, place: Place, detail: float | None = None) -> None:
     """Lays a picture on a layer of its own, a pixel on a pixel of the level seen, with its middle at a place; then it
-    can be moved."""
+    can be moved.  `detail`: as of `lay`."""
     desk.say(f"Bringing in {path.name}")
-    desk.work(_Lay(path, place))
+    desk.work(_Lay(path, place, detail=detail))
 
 
 def as_reference(desk: Desk, path: Path, place: Place) -> None:

@@ -23,7 +23,8 @@ def from_file(desk: Desk, path: Path) -> None:
 
 def texture_of(desk: Desk, path: Path) -> DefineTexture:
     """Returns what makes a texture of a picture file, under a name that none has yet."""
-    return DefineTexture(free_texture_name(desk, path.stem), "image", Map({"path": str(path.absolute())}))
+    told = Map({"path": str(path.absolute()), "detail": "learnt"})
+    return DefineTexture(free_texture_name(desk, path.stem), "image", told)
 
 
 def from_view(desk: Desk) -> None:

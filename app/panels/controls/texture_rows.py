@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from imgui_bundle import imgui
@@ -16,8 +17,29 @@ from engine.makers import definitions
 from engine.painting.commands import DefineTexture
 from engine.painting.layering.painting_member import A_FILE, HOLDS
 
+
+@dataclass(frozen=True, slots=True)
+class KindRow:
+    """A parameter that several kinds of textures have, 0..1, as the table of kinds tells others."""
+
+    name: str
+    tooltip: str
+    default: float = 1.0
+    lo: float = 0.0
+    hi: float = 1.0
+    unit: str = ""
+    whole: bool = False
+
+
 _SLIDER_MOST = {"period": 512.0, "angle": 180.0}
-_WORDS = {"period": "Size", "mean": "Brightness", "spread": "Contrast", "quantise": "Steps"}  # for artists
+_WORDS = {
+    "period": "Size",
+    "mean": "Brightness",
+    "spread": "Contrast",
+    "quantise": "Steps",
+    "strength": "Detail",
+}  # for artists
+_STRENGTH = KindRow("strength", "How much detail follows below the picture's own pixels; 0 is smooth")
 _WHOLE_CURVE = ("period", "density")  # sliders that are finer where they are small
 
 
@@ -108,6 +130,8 @@ def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any
         still = row.name != "weight" or is_number(parameters.get("weight", 0.0))
         if row.name not in ("seed", "stages") and still:
             parameters = _slider(parameters, row, usual.get(row.name, row.default))
+    if usual.get("detail") == "learnt":
+        parameters = _slider(parameters, _STRENGTH, usual.get("strength", 1.0))
     if any(row.name == kind and row.endless for row in desk.known.tables.kinds):
         renewed = parameters.get("renew", usual.get("renew", True)) is not False
         changed, renew = _renewed(renewed)

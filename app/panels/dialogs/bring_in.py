@@ -25,6 +25,7 @@ class BringIn:
     def __init__(self, desk: Desk) -> None:
         assert desk.asked.bringing is not None
         self._path, self._place = desk.asked.bringing
+        self._refined, self._strength = False, 1.0
 
     def draw(self, desk: Desk) -> bool:
         """Draws it into the present window; False when it is answered."""
@@ -42,8 +43,9 @@ class BringIn:
         if bringing.is_map(self._path):
             return self._as_ground(desk, wide) or w.text_button("Cancel", "Leave the painting as it is", width=wide)
         if w.default_button("Layer", "Lay it on a layer of its own, where it was dropped; then move it", width=wide):
-            bringing.as_layer(desk, self._path, self._place)
+            bringing.as_layer(desk, self._path, self._place, self._strength if self._refined else None)
             return True
+        self._extrapolation(wide)
         if w.text_button("Reference", "To look at and pick from while you paint; never exported", width=wide):
             bringing.as_reference(desk, self._path, self._place)
             return True
@@ -71,6 +73,18 @@ class BringIn:
             desk.guard(lambda: desk.open(path))
             return True
         return w.text_button("Cancel", "Leave the painting as it is", width=wide)
+
+    def _extrapolation(self, wide: float) -> None:
+        """Shows whether the layer goes on below the picture's pixels, and how much."""
+        hint = "Its layer goes on below its own pixels, as they let expect: sharp edges, and grain where it has some"
+        _, self._refined = w.tick("Extrapolate", self._refined, hint)
+        imgui.begin_disabled(not self._refined)
+        imgui.begin_child("strength", ImVec2(wide, imgui.get_frame_height()))
+        hint = "How much of the detail is added"
+        changed, value = w.slider("Detail", self._strength * 100, (0.0, 100.0), hint, form="%.0f%%")
+        self._strength = value / 100 if changed else self._strength
+        imgui.end_child()
+        imgui.end_disabled()
 
     def _as_ground(self, desk: Desk, wide: float) -> bool:
         chosen = w.text_button("Ground", "A height map: it becomes ground of the land", width=wide)

@@ -25,7 +25,7 @@ from engine.brush.stamp import Edit, Stamp
 from engine.canvas.commit import commit
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.store import Pyramid
-from engine.makers import definitions, with_structure
+from engine.makers import definitions, learning, with_structure
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.painting import commands as c
 from engine.painting.value import Painting, Refusal
@@ -126,7 +126,12 @@ def filed() -> None:
         open_image(png)
 
 
-_PLAIN = {"commit": stamped, "files": filed, "structure": with_structure.make_once}  # jobs without a brush
+_PLAIN = {
+    "commit": stamped,
+    "files": filed,
+    "structure": with_structure.make_once,
+    "learnt": learning.make_once,
+}  # jobs without a brush
 
 
 @dataclass(frozen=True, slots=True)

@@ -39,21 +39,23 @@ def job_of(swatch: Swatch) -> Job:
 
 
 _PLAIN = job_of(Swatch("", Brush(), (104, 44)))
-COMMIT, STRUCTURE, FILES = (Job(json.dumps({"kind": kind})) for kind in ("commit", "structure", "files"))
+COMMIT, STRUCTURE, LEARNT_DETAIL, FILES = (
+    Job(json.dumps({"kind": kind})) for kind in ("commit", "structure", "learnt", "files")
+)
 PLAIN_PAINT = (_PLAIN, COMMIT)  # what the first strokes of plain paint need
 _BEFORE_EXAMPLES = 3  # one in so many brushes comes before the first that grows an example
 
 
 def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
     """Returns the jobs of brushes, most likely first: those that grow examples last, but for one, whose many kernels
-    come one after the other, while a second process has others to compile; matching and files after all brushes, as
-    they take long, and who saves waits for it where nobody sees it."""
+    come one after the other, while a second process has others to compile; what refines pictures, matching
+    and files after all brushes, as they take long, and who saves waits for it where nobody sees it."""
     listed = list(swatches)
     grow = [swatch for swatch in listed if swatch.brush.row.grows]
     others = [swatch for swatch in listed if not swatch.brush.row.grows]
     at = len(others) // _BEFORE_EXAMPLES
     ordered = (*others[:at], *grow[:1], *others[at:], *grow[1:])
-    return (*dict.fromkeys(map(job_of, ordered)), STRUCTURE, FILES)
+    return (*dict.fromkeys(map(job_of, ordered)), LEARNT_DETAIL, STRUCTURE, FILES)
 
 
 class JobQueue:

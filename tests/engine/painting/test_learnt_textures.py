@@ -141,3 +141,31 @@ def test_refused_in_one_line(folder, definition, message):
         apply(Painting(), parse(texture(**definition)), Around(folder=folder, arithmetic=EVERYWHERE))
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("path", ["a.png", "clear.png"])
+@pytest.mark.parametrize(("level", "at"), [(0, (3, -2)), (2, (-40, 17))])
+def test_a_layer_goes_on_below_its_pictures_own_pixels(folder, path, level, at):
+    """Its pixels are those that it has without; the ones below are the texture's, moved there; undo takes all away."""
+    add = {"do": "layer", "add": "Photo", "kind": "picture", "texture": "t", "level": level, "at": list(at)}
+    plain = replayed(folder, {"do": "texture", "name": "t", "maker": "image", "path": path}, add).painting
+    session = replayed(folder, texture(maker="image", path=path, strength=0.7), add)
+    found, texture_made = session.painting, session.painting.textures["t"]
+    one, other = (layers_of(painting)[-1].pyramid for painting in (plain, found))
+    own = Rect.at(*at, 48, 48)
+    assert np.array_equal(evaluate(one, level, own).data, evaluate(other, level, own).data[:4])
+    inner = Rect.at(2 * at[0] + 16, 2 * at[1] + 16, 64, 64)
+    added = evaluate(other, level + 1, inner).data[:3] - evaluate(one, level + 1, inner).data[:3]
+    ink = texture_made.instance({"period": 48}, level, 0)
+    wanted = ink.bandpass(level + 1, Rect.at(16, 16, 64, 64))
+    seen = np.abs(added - wanted) < 1e-4  # where nothing is cut off at alpha, or at nothing
+    assert seen.mean() > (0.99 if path == "a.png" else 0.9)
+    save(folder / "a.ora", Snapshot(found, session.recording()))
+    again = layers_of(open_painting(folder / "a.ora").painting)[-1].pyramid
+    assert np.array_equal(evaluate(again, level + 2, inner).data, evaluate(other, level + 2, inner).data)
+    session.do(parse({"do": "undo"}))
+    assert len(layers_of(session.painting)) == 1
+
+
+def layers_of(painting):
+    return tuple(layers(painting.root))
