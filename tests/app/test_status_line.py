@@ -67,3 +67,12 @@ def test_of_a_large_picture_one_is_told_that_it_is_on_its_way(side, told):
     bringing.lay(desk, Path("sky.png"), "sky", (side, side), Place(0, 0, 0))
     assert desk.message.text.startswith(told)
     assert desk.hand.tool == "move"
+
+
+@pytest.mark.parametrize(("side", "refined"), [(400, True), (5000, False)])
+def test_a_picture_that_is_too_large_is_not_extrapolated_and_that_is_told(side, refined):
+    desk, posted = desk_on(replace(ROW, name="sky")), []
+    desk.post = posted.append
+    bringing._Lay(Path("sky.png"), Place(0, 0, 0), detail=0.5).arrive(desk, (side, side))
+    assert ("detail" in posted[0].command.arguments) == refined
+    assert ("extrapolated" in desk.message.text) == (not refined)

@@ -17,6 +17,7 @@ from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do
 
 _FAR = -4  # a level at which little is left of a picture that lies on level 0
+_LARGEST = 1 << 24  # pixels of a picture that is extrapolated
 _SLOW = 1 << 24  # pixels of a picture that is seconds on its way to its layer
 
 
@@ -54,7 +55,10 @@ class _Lay(FileWork):
         return picture_size(self.path)
 
     def arrive(self, desk: Desk, found: tuple[int, int]) -> None:
-        lay(desk, self.path, self.path.stem, found, self.place, self.role, self.detail)
+        large = found[0] * found[1] > _LARGEST
+        lay(desk, self.path, self.path.stem, found, self.place, self.role, None if large else self.detail)
+        if large and self.detail is not None:
+            desk.say(f"{self.path.name} is laid as it is: it has more pixels than are extrapolated")
 
 
 def picture_level(seen: int) -> int:
