@@ -47,6 +47,7 @@ BENCHES = {
     "matching": "a texture matched to an example, 256 to 256 and to 512, against peers and against its transforms",
     "structured": "textures with a structure: their yardstick, what is copied, seconds at 256 x 256",
     "masks": "masks found by themselves on twenty composites: overlap, error of alpha, seconds of a correction",
+    "learnt": "detail below a picture's own pixels: against the true octave, codes and expansion; ns a pixel",
     "example": "painting with example textures: preview, refinement, threads, and G'MIC's synthesis",
     "stroke": "a stroke of 1,000 points, 10,000 px over 2000 x 2000, to pixels at all levels; beside libmypaint",
     "copies": "a stroke drawn sixteen times in one step, against the same sixteen strokes",

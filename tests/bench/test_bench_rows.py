@@ -18,6 +18,7 @@ QUICK = (
     "raster",
     "spectral",
     "matching",
+    "learnt",
     "example",
     "stroke",
     "copies",
