@@ -1,5 +1,5 @@
-"""The kernels of textures with a structure are loaded, or compiled where the program is new, on a thread of their own:
-that takes longer than anybody holds a pen still."""
+"""The kernels of textures with a structure, and of detail that is learnt of them, are loaded, or compiled where the
+program is new, on a thread of their own: that takes longer than anybody holds a pen still."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 from threading import Thread
 
-from engine.makers import with_structure
+from engine.makers import learning, with_structure
 from engine.makers.heeger_bergen import Made
 
 _LOOK = 0.03  # seconds that the engine's thread waits at a time, where nothing else is to be done
@@ -21,8 +21,13 @@ def waiting(done: float) -> Iterator[Made]:
         yield Made(done)
 
 
+def _make_once() -> None:
+    with_structure.make_once()
+    learning.make_once()
+
+
 @lru_cache(maxsize=1)
 def _thread() -> Thread:
-    made = Thread(target=with_structure.make_once, name="inkfall structure", daemon=True)
+    made = Thread(target=_make_once, name="inkfall structure", daemon=True)
     made.start()
     return made

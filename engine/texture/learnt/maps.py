@@ -79,7 +79,7 @@ def maps_of(source: ImageSource) -> Maps | None:
         return None
     flat = np.rint(source.planes(source.whole)[:3].reshape(-1) / np.float32(Q)).astype(np.int64) - _MIDDLE
     version, axes, channels = flat[:3].tolist() if flat.size > 3 else (0, 0, 0)
-    if version != _VERSION or not (0 <= axes <= channels <= 4 and channels):
+    if version != _VERSION or channels not in (1, 3, 4) or not 0 <= axes <= channels:
         return None
     shapes = [
         (axes, channels),

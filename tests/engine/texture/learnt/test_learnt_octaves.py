@@ -138,6 +138,40 @@ def test_what_was_learnt_survives_being_kept(name):
     assert as_picture("m", maps).sha == MAPS[name].sha
 
 
+def told_by(numbers, size=(64, 90)):
+    """A picture that tells whole numbers as kept maps do."""
+    flat = np.zeros(3 * size[0] * size[1])
+    flat[: len(numbers)] = numbers
+    planes = ((flat + (1 << 15)) * 2.0**-16).astype(np.float32).reshape(3, size[1], size[0])
+    return ImageSource.of("m", np.concatenate([planes, np.ones_like(planes[:1])]))
+
+
+@pytest.mark.parametrize("numbers", [(1, 2, 2), (2, 1, 1), (1, 4, 3), (1, -1, 3), (1, 1, 0), (1, 4, 4)])
+def test_a_picture_that_tells_no_maps_changes_nothing(numbers):
+    """Nor does one that is too small, or of another width."""
+    shapes = [told_by(numbers, (64, 20) if numbers == (1, 4, 4) else (64, 90)), told_by((1, 1, 1), (60, 90))]
+    for maps in shapes:
+        assert maps_of(maps) is None
+        for name, kind in (("plain", "image"), ("clear", "matched")):
+            texture = instance(kind, {**LEARNT, "period": 48}, 0, 0, SOURCES[name], 2, maps)
+            plain = instance(kind, {"period": 48}, 0, 0, SOURCES[name], 2)
+            for level in (1, 2, 5):
+                rect = Rect.at(3, 4, 20, 10)
+                assert np.array_equal(texture.appearance(level, rect), plain.appearance(level, rect))
+
+
+@pytest.mark.parametrize("kind", ["image", "matched", "series"])
+@pytest.mark.parametrize(("name", "other"), [("plain", "clear"), ("clear", "plain")])
+def test_maps_of_another_picture_are_no_fault(kind, name, other):
+    found = instance(kind, {**LEARNT, "period": 48, "stages": 2}, 0, 0, SOURCES[name], 2, MAPS[other])
+    for texture in (found, found.cover or found):
+        for level in (1, 2, 5):
+            rect = Rect.at(3, 4, 20, 10)
+            assert np.isfinite(texture.appearance(level, rect)).all()
+            added = texture.bandpass(level, rect)
+            assert added is None or added.shape[1:] == (10, 20)
+
+
 # ---- what maps make ----
 
 
