@@ -231,7 +231,7 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
         pixels = _by_now(portions, ("below", *about), lambda: unrolled.lying_below(turns, level, part, of(below)))
         if above:
             layers = _resting(source.sources, above)
-            work = partial(unrolled.lying_above, turns, layers, level, part, of(above))
+            work = partial(unrolled.lying_above, turns, layers, level, part, of(above), source.sources.unpainted)
             pixels = unrolled.laid_over(_by_now(portions, ("above", *about), work), pixels)
     return None if pixels is None else outer.clipped(pixels, level, part, rect)
 

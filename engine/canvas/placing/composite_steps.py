@@ -77,7 +77,8 @@ class Sources:
 
     def __init__(self, root: Group, portions: Portions | None = None, painted: int | None = None) -> None:
         self.portions, self.painted = portions, painted
-        self.sparing: Callable[[Read], Read] = functools.partial(Unpainted().reading, painted=painted)
+        self.unpainted = Unpainted()
+        self.sparing: Callable[[Read], Read] = functools.partial(self.unpainted.reading, painted=painted)
         self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
         self._steps: dict[Shown, tuple[CompositeStep, ...]] = {}
         self._turns: dict[Shown, bool] = {}

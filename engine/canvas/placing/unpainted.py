@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from engine.canvas.evaluate import evaluate_sparse
@@ -30,6 +32,17 @@ class Unpainted:
         if finest is None or source_level(seen.similarity, level) < finest + _FROM:
             return False
         return self._nothing(layer, seen.similarity.box(rect, level, finest, _AROUND))
+
+    def empty(self, layers: Sequence[Layer], level: int, rect: Rect, seen: Seen) -> bool:
+        """As `in`, of several layers; False also where looking takes as long as reading."""
+        at = source_level(seen.similarity, level)
+        for layer in layers:
+            finest = _finest_of(layer)
+            if finest is None or at <= finest:
+                return False
+            if not self._nothing(layer, seen.similarity.box(rect, level, finest, _AROUND)):
+                return False
+        return True
 
     def reading(self, read: Read, painted: int | None) -> Read:
         """Returns what reads layers, without a look at where nothing of them is.  `painted`: the id of the one that

@@ -11,6 +11,7 @@ from engine.canvas.placing.clip import clipped
 from engine.canvas.placing.portions import Work
 from engine.canvas.placing.self_turns import Turns
 from engine.canvas.placing.through import set_in
+from engine.canvas.placing.unpainted import Unpainted
 from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric.address import Rect
 from engine.numeric.kernel import kernel
@@ -130,14 +131,17 @@ def cut_turns(
     return (yield from by_now())
 
 
-def lying_above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, draw: Draw) -> Work:
+def lying_above(
+    turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, draw: Draw, unpainted: Unpainted
+) -> Work:
     """As `all_turns`, of what lies above the placement, which lays all over nothing: from the outermost turn inwards,
     until all is hidden.  `layers`: all that is drawn, if there are no placements among it."""
     first = 0 if layers is None else turns.empty(layers, level, rect)
     front: np.ndarray | None = None
     turn, part = first, turns.within(first, level, rect)
     while not part.empty:
-        drawn = _cut(turns, turn, level, part, draw(turn, part, None))
+        nothing = layers is not None and unpainted.empty(layers, level, part, turns[turn].unclipped)
+        drawn = None if nothing else _cut(turns, turn, level, part, draw(turn, part, None))
         if drawn is not None:
             front = np.zeros((4, rect.height, rect.width), np.float32) if front is None else front
             if lay_behind(front[:, *part.slices(rect)], np.ascontiguousarray(drawn)):

@@ -16,6 +16,7 @@ from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Alone, Group, Layer, find, walk
 from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.portions import Portions
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import layer_planes
 from engine.canvas.selecting.selection import Selection
@@ -269,3 +270,15 @@ def test_a_stroke_in_progress_is_seen_however_deep(masked):
 
     seen = composite(Planned.of(root, painted=number), 60, rect, read)
     assert np.abs(seen - composite(root, 60, rect, layer_planes)).max() > 0.1
+
+
+def test_turns_of_a_masked_copy_that_are_gone_on_with_come_to_the_same_to_the_bit():
+    root, (x, y) = below_paint(opacity=0.95), fixed(HALF, 150)
+    rect = Rect.at(x - 20, y - 12, 40, 24)
+    complete, portions, made = picture(root, 150, rect), Portions(10), []
+    planned = Planned.of(root, None, portions)
+    while not made or not made[-1][1]:
+        made.append(portions.picture(lambda: composite(planned, 150, rect, layer_planes)))
+    assert len(made) >= 4
+    assert 0 < np.abs(made[0][0] - complete).mean() < 0.7 * np.abs(complete).mean() + 0.1
+    np.testing.assert_array_equal(made[-1][0], complete)
