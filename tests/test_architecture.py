@@ -151,3 +151,8 @@ def test_the_way_to_the_window_loads_nothing_heavy():
 
 def test_the_window_is_there_before_what_compiles():
     assert not {name.split(".")[0] for name in loaded_after("import app.window")} & {"numba", "llvmlite", "scipy"}
+
+
+def test_superpixels_are_loaded_only_where_something_is_found():
+    loaded = loaded_after("import app.window, engine.studio.textures.cut_finder, engine.studio.studio")
+    assert "skimage" not in {name.split(".")[0] for name in loaded}

@@ -12,7 +12,7 @@ from app.canvas.view import View, place_of_pixel
 from app.desk import palette
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
-from app.desk.examples import example_use
+from app.desk.examples import cutting_work, example_use
 from app.desk.guides import symmetry
 from app.desk.guides.snapping import Snapper
 from app.desk.guides.tile_seams import tell_seams
@@ -227,6 +227,26 @@ def paint_region(desk: Desk, first: PenEvent) -> Gesture:
         done = True
     finally:
         desk.post(RegionEnd(done))
+
+
+def mark_region(desk: Desk, first: PenEvent) -> Gesture:
+    """Returns a stroke that says what of an example's picture is to be kept, or dropped; as all strokes it may be
+    given up."""
+    state, finding = desk.examples, cutting_work.finding_of(desk)
+    if finding is None:
+        return
+    event, done = first, False
+    finding.begin(finding.way == "keep" and not first.eraser)
+    try:
+        while True:
+            if event.kind in ("down", "move", "up"):
+                finding.extend(*state.place(event.x, event.y))
+            if event.kind in ENDS:
+                break
+            event = yield
+        done = True
+    finally:
+        finding.end(desk.post, done)
 
 
 def _post(desk: Desk, points: np.ndarray, form: type[Points | LabPoints | RegionPoints] = Points) -> None:

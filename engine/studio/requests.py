@@ -31,6 +31,7 @@ from engine.studio.results import Note, Result
 from engine.studio.selecting.ants_records import AskAnts, PreviewSelection
 from engine.studio.selecting.tint_records import TintRequest
 from engine.studio.stack.stack_requests import ShowOnly
+from engine.studio.textures.cut_records import FindCut
 from engine.studio.textures.texture_requests import LabRequest, MatchRequest, RegionRequest
 
 if TYPE_CHECKING:
@@ -262,6 +263,7 @@ Request = (
     | Pick
     | LabRequest
     | RegionRequest
+    | FindCut
     | Analyse
     | MatchRequest
     | Seek

@@ -27,6 +27,7 @@ from engine.studio.moving.sheet_records import SheetResult
 from engine.studio.past.past_records import PastResult
 from engine.studio.selecting.ants_records import Ants
 from engine.studio.selecting.tint_records import Tint
+from engine.studio.textures.cut_records import CutFound
 from engine.studio.textures.texture_results import TextureResult
 
 if TYPE_CHECKING:
@@ -304,6 +305,7 @@ Result = (
     | Writing
     | PicturePart
     | TextureResult
+    | CutFound
     | GotReady
     | Filming
     | FilmLength

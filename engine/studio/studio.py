@@ -47,6 +47,7 @@ from engine.studio.selecting.ants import AntsFinder
 from engine.studio.selecting.mask_tint import TintFinder
 from engine.studio.stack.layer_pictures import LayerPictures
 from engine.studio.textures import swatch_files, swatches
+from engine.studio.textures.cut_finder import CutFinder
 from engine.studio.textures.lab import Lab
 from engine.studio.textures.matcher import Matcher
 from engine.studio.textures.region_strokes import Regions
@@ -138,7 +139,7 @@ class Studio(Owned):
             Tend: lambda r: None,
             **self.filing.handlers,
             **Warming(send).handlers,
-            **StillPictures(easel).handlers,
+            **(StillPictures(easel).handlers | CutFinder(send).handlers),
         }
         for row in self._rows:
             self._handlers |= row.handlers

@@ -1,6 +1,8 @@
 """Files dragged onto a window of an X server: the source's side of the protocol XDND, version 5, through Xlib."""
 
 import ctypes
+import os
+import subprocess
 import time
 from ctypes import POINTER, Structure, c_char_p, c_int, c_long, c_ulong, c_void_p
 from pathlib import Path
@@ -106,3 +108,11 @@ class Drag:
             target=asked.target, property=asked.property, time=asked.time,
         )  # fmt: skip
         self._send(asked.requestor, event)
+
+
+def window_of(app):
+    """The number of a program's window."""
+    words = ["xdotool", "search", "--onlyvisible", "--pid", str(app.process.pid)]
+    environment = {**os.environ, "DISPLAY": app.display}
+    found = subprocess.run(words, capture_output=True, text=True, check=True, env=environment, timeout=30)
+    return int(found.stdout.split()[-1])

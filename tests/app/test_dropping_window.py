@@ -1,7 +1,5 @@
 """Files dropped on the real window: onto the palette of examples, and on the canvas."""
 
-import os
-import subprocess
 import threading
 import time
 import zipfile
@@ -9,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from dragging import Drag
+from dragging import Drag, window_of
 from PIL import Image
 from psd_tools import PSDImage
 
@@ -39,13 +37,6 @@ def photograph(tmp_path_factory):
     path = tmp_path_factory.mktemp("camera") / "photograph.jpg"
     Image.fromarray(small).resize((6000, 4000), Image.Resampling.BICUBIC).save(path, quality=92)
     return path
-
-
-def window_of(app):
-    words = ["xdotool", "search", "--onlyvisible", "--pid", str(app.process.pid)]
-    environment = {**os.environ, "DISPLAY": app.display}
-    found = subprocess.run(words, capture_output=True, text=True, check=True, env=environment, timeout=30)
-    return int(found.stdout.split()[-1])
 
 
 def until(good, seconds=60.0):

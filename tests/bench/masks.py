@@ -18,8 +18,9 @@ from bench import Figure, Skipped
 from bench.clock import processor
 from bench.composites import SIDE, Composite, composites
 from engine.numeric.address import Rect
-from engine.texture.mattes.finding import Cut, Mark, Outline, Sought, cut_out_of, outlined, sought
+from engine.texture.mattes.finding import Cut, Outline, Sought, cut_out_of, outlined, sought
 from engine.texture.mattes.fine_rim import stretched
+from engine.texture.mattes.marks import Mark
 
 PLAIN, TEXTURED = 0.97, 0.95  # of the union, at least, lies in both
 STROKES = 3

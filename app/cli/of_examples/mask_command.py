@@ -17,7 +17,7 @@ from app.cli.progress import Progress
 if TYPE_CHECKING:
     import numpy as np
 
-    from engine.texture.mattes.finding import Mark
+    from engine.texture.mattes.marks import Mark
 
 Points = tuple[tuple[float, float], ...]
 _ABOUT = "Finds what lies on the ground of a picture: a mask of it, and its colours without the ground"
@@ -77,7 +77,7 @@ def _radius(text: str) -> float:
 
 def _marks(given: argparse.Namespace, width: int, height: int) -> list[Mark]:
     """Returns what was said, in pixels of the picture; what is dropped lies over what is kept."""
-    from engine.texture.mattes.finding import Mark
+    from engine.texture.mattes.marks import Mark
 
     radius = given.radius or max(1.0, max(width, height) / 100)
     found = []

@@ -18,6 +18,7 @@ import numpy as np
 import platformdirs
 from immutables import Map
 
+from app.desk.examples.finding_state import FindingState
 from app.desk.examples.following import Following
 from app.desk.examples.region_state import RegionState
 from engine.brush.checks import frozen
@@ -178,6 +179,7 @@ class ExampleState:
     drafts: dict[str, Map[str, Any]] = field(default_factory=dict)
     used: dict[str, Map[str, Any]] = field(default_factory=dict)
     regions: dict[str, RegionState] = field(default_factory=dict)
+    finding: FindingState | None = None  # what lies on the ground of one's picture, while it is found
     opening: str = ""  # the entry whose region is being read
     spot: tuple[float, float, float] | None = None
     sampled: tuple[int, int] = (0, 0)  # width and height of the picture of a stroke, framebuffer pixels

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 from immutables import Map
 
 from app.desk import palette, presets
@@ -14,6 +15,7 @@ from app.desk.desk import Desk, FileWork
 from app.desk.examples import example_state, own_example_files
 from app.desk.examples.example_state import Entry
 from app.desk.examples.example_use import choose, gather, take_example
+from app.desk.examples.finding_state import FindingState
 from app.desk.examples.region_state import RegionState
 from engine.studio.textures.texture_requests import RegionClose, RegionOpen, RegionSaved
 from engine.studio.textures.texture_results import RegionScene
@@ -28,12 +30,13 @@ class Listing(NamedTuple):
     name: str = ""
 
 
-def _listed(name: str) -> Listing:
+def listing_of(name: str) -> Listing:
+    """Reads the artist's own as their files are; `name`: of the one to paint with."""
     entries, faults = example_state.load_examples(example_state.own_folder(), True)
     return Listing(tuple(entries), tuple(faults), name)
 
 
-def _relist(desk: Desk, listing: Listing) -> None:
+def relist(desk: Desk, listing: Listing) -> None:
     """The palette lists the artist's own as their files are now; the brush takes the one that is named."""
     state = desk.examples
     others = (entry for entry in state.entries if not entry.own)
@@ -63,6 +66,7 @@ class _Added(NamedTuple):
     listing: Listing
     smaller: bool
     region: RegionOpen
+    pixels: np.ndarray
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,20 +75,23 @@ class _Add(FileWork):
 
     def carry_out(self) -> _Added:
         name, smaller = own_example_files.add(self.path)
-        listing = _listed(name)
+        listing = listing_of(name)
         entry = next(entry for entry in listing.entries if entry.name == name)
-        return _Added(listing, smaller, own_example_files.opening_of(entry))
+        return _Added(listing, smaller, own_example_files.opening_of(entry), own_example_files.read_only(entry))
 
     def arrive(self, desk: Desk, found: _Added) -> None:
-        _relist(desk, found.listing)
+        relist(desk, found.listing)
         desk.examples.opening = found.region.ident
         desk.post(found.region)
+        if found.pixels[..., 3].min() == 255:  # no holes tell what of it is meant
+            desk.examples.finding = FindingState.of(found.region.ident, found.pixels, fresh=True)
+            desk.examples.finding.ask(desk.post)
         size = f", made smaller: at most {own_example_files.SIDE} pixels" if found.smaller else ""
         desk.say(f"Added the example “{_title(desk)}”{size}")
 
 
 def add(desk: Desk, path: Path) -> None:
-    """A picture becomes an example of the artist's own, whose region is to be painted."""
+    """A picture becomes an example of the artist's own, whose region is found, or is to be painted."""
     desk.say(f"Adding {path.name}")
     desk.work(_Add(path))
 
@@ -139,7 +146,7 @@ class _SaveRegion(FileWork):
     scene: RegionScene
 
     def carry_out(self) -> Listing:
-        return _listed(own_example_files.save_region(self.entry, self.parameters, self.scene))
+        return listing_of(own_example_files.save_region(self.entry, self.parameters, self.scene))
 
     def arrive(self, desk: Desk, found: Listing) -> None:
         state, name = desk.examples, f"own {found.name}"
@@ -148,7 +155,7 @@ class _SaveRegion(FileWork):
             known.scene = replace(known.scene, ident=name)
             state.regions[name] = known
             desk.post(RegionSaved(self.entry.ident, name, self.scene.steps))
-        _relist(desk, found)
+        relist(desk, found)
         desk.say(f"Saved the region of “{_title(desk)}”" + ("" if self.entry.own else ", an example of your own now"))
 
 
@@ -173,11 +180,11 @@ class _KeepParameters(FileWork):
 
     def carry_out(self) -> Listing:
         own_example_files.write_parameters(self.entry.name, self.parameters, self.entry.given)
-        return _listed(self.entry.name)
+        return listing_of(self.entry.name)
 
     def arrive(self, desk: Desk, found: Listing) -> None:
         _settle(desk, self.entry, self.parameters)
-        _relist(desk, found)
+        relist(desk, found)
 
 
 def use_settings(desk: Desk) -> None:
@@ -204,11 +211,11 @@ class _Copy(FileWork):
     parameters: Parameters
 
     def carry_out(self) -> Listing:
-        return _listed(own_example_files.copy(self.entry, self.parameters))
+        return listing_of(own_example_files.copy(self.entry, self.parameters))
 
     def arrive(self, desk: Desk, found: Listing) -> None:
         _settle(desk, self.entry, self.parameters)
-        _relist(desk, found)
+        relist(desk, found)
         desk.say(f"Saved as “{_title(desk)}”, an example of your own")
 
 
@@ -226,13 +233,13 @@ class _Rename(FileWork):
 
     def carry_out(self) -> Listing:
         own_example_files.write_parameters(self.entry.name, self.entry.parameters, self.title)
-        return _listed(self.entry.name)
+        return listing_of(self.entry.name)
 
     def arrive(self, desk: Desk, found: Listing) -> None:
         painting = desk.examples.chosen == self.entry.ident and desk.hand.brush.row.grows
         kept = (need for need in desk.hand.needs if need.arguments.get("path") != str(self.entry.picture))
         desk.hand.take(desk.hand.brush, needs=tuple(kept))
-        _relist(desk, found if painting else found._replace(name=""))
+        relist(desk, found if painting else found._replace(name=""))
         desk.say(f"“{self.entry.title}” is called “{self.title}” now")
 
     def fail(self, desk: Desk, fault: str) -> None:

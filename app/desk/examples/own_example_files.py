@@ -64,6 +64,13 @@ def pixels_of(path: Path) -> np.ndarray:
     return pixels if pixels.dtype == np.uint8 else (pixels >> 8).astype(np.uint8)
 
 
+def read_only(entry: Entry) -> np.ndarray:
+    """As `pixels_of` an example's picture, read-only."""
+    pixels = np.ascontiguousarray(pixels_of(entry.picture))
+    pixels.flags.writeable = False
+    return pixels
+
+
 def add(path: Path) -> tuple[str, bool]:
     """Makes an example of a picture file: its name, and whether it had to be made smaller."""
     pixels, smaller = fitting(pixels_of(path))
@@ -72,6 +79,21 @@ def add(path: Path) -> tuple[str, bool]:
     write_region(name, pixels[..., 3] > 0)
     write_parameters(name, Parameters())
     return name, smaller
+
+
+def add_cut(entry: Entry, pixels: np.ndarray, instead: bool) -> list[str]:
+    """Makes an example of each thing that was cut out of an example's picture, RGBA (h, w, 4), the largest first: their
+    names.  `instead`: the largest takes the place of that example."""
+    from engine.texture.mattes.things import cut_apart, grown_region
+
+    names = []
+    for n, piece in enumerate(cut_apart(pixels)):
+        name = entry.name if instead and n == 0 else free_file_name(entry.given or entry.name)
+        _write(_place(name, PICTURE), piece)
+        write_region(name, grown_region(piece))
+        write_parameters(name, Parameters())
+        names.append(name)
+    return names
 
 
 def copy(entry: Entry, parameters: Parameters) -> str:

@@ -11,16 +11,18 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions.action import Action
 from app.desk.desk import Desk
-from app.desk.examples import example_pictures, example_state, example_use, example_work, thumbnails
+from app.desk.examples import cutting_work, example_pictures, example_state, example_use, example_work, thumbnails
 from app.desk.examples.example_state import Entry
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
+from app.panels.examples.finding_panel import FindingPanel
 from app.panels.examples.growth_settings import GrowthSettings
 from app.panels.examples.own_examples import OwnExamples
 from app.panels.examples.region_panel import RegionPanel
 from app.panels.panel import Painting, Panel
-from app.tools.painting_gestures import paint_region
+from app.tools.painting_gestures import mark_region, paint_region
 from engine.studio.results import Picture, Scene
+from engine.studio.textures.cut_records import CutFound
 from engine.studio.textures.texture_results import RegionScene
 
 TILE = 68.0  # side of a thumbnail, points, at least
@@ -38,9 +40,10 @@ class ExamplesPanel(Panel):
     """Draws the strip."""
 
     def __init__(self) -> None:
+        self._finding = FindingPanel()
         self._region, self._settings, self._own = RegionPanel(), GrowthSettings(), OwnExamples()
         self._defined: Sequence[Any] | None = None  # what the painting defined when it was last listed
-        self.hears = {Scene: self._heard, Picture: _sampled, RegionScene: _painted}
+        self.hears = {Scene: self._heard, Picture: _sampled, RegionScene: _painted, CutFound: cutting_work.hear}
 
     def wants(self, desk: Desk, now: float) -> None:
         """Thumbnails, and the sample stroke where it is seen."""
@@ -54,12 +57,15 @@ class ExamplesPanel(Panel):
 
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
         """Returns a stroke in the region."""
-        return paint_region if desk.examples.over(x, y) else None
+        if not desk.examples.over(x, y):
+            return None
+        return paint_region if cutting_work.finding_of(desk) is None else mark_region
 
     def takes(self, desk: Desk, action: Action) -> bool:
         """Undo and redo over the region are its own, and so is the size of its brush."""
         at = desk.pointer
-        return desk.examples.over(at.x, at.y) and self._region.takes(desk, action)
+        page = self._region if cutting_work.finding_of(desk) is None else self._finding
+        return desk.examples.over(at.x, at.y) and page.takes(desk, action)
 
     def dropped(self, desk: Desk, path: Path, x: float, y: float) -> bool:
         """A picture is an example of the artist's own."""
@@ -80,7 +86,10 @@ class ExamplesPanel(Panel):
             example_work.edit(desk)
         if not _has_files(state.entry) or (state.tab == "region" and state.region is None):
             state.tab = "palette"
-        if state.tab == "region":
+        finding = cutting_work.finding_of(desk)
+        if state.tab == "region" and finding is not None:
+            self._finding.draw(desk, finding)
+        elif state.tab == "region":
             self._region.draw(desk)
         elif state.tab == "settings":
             self._settings.draw(desk)

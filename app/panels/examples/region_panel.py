@@ -14,10 +14,11 @@ from app import icons, theme
 from app.actions.action import Action
 from app.actions.actions import ACTIONS
 from app.desk.desk import Desk
-from app.desk.examples import example_work
+from app.desk.examples import cutting_work, example_work
 from app.desk.examples.region_state import BY_ALPHA, EVERYTHING, INVERTED, RADII, SMOOTHED, RegionState
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
+from app.panels.examples.region_picture import draw_picture
 
 GROW = 1.15  # of the brush, by a key
 _SIDE = 232.0  # width of the tools, points
@@ -44,7 +45,8 @@ class RegionPanel:
             return
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
         imgui.begin_child("region picture", ImVec2(room.x - _SIDE * desk.scale - gap, 0))
-        self._picture(desk, region)
+        radius = None if region.way == "colour" else region.radius
+        draw_picture(desk, (f"region {state.chosen}",), region.scene.size, radius)
         imgui.end_child()
         imgui.same_line()
         imgui.begin_child("region tools", ImVec2(0, 0))
@@ -75,29 +77,6 @@ class RegionPanel:
             region.resize(sizes[action])
         return True
 
-    def _picture(self, desk: Desk, region: RegionState) -> None:
-        """As large as there is room for; its place is remembered for the strokes."""
-        state, room = desk.examples, imgui.get_content_region_avail()
-        width, height = region.scene.size
-        scale = min(room.x / width, room.y / height)
-        corner = imgui.get_cursor_screen_pos()
-        at = ImVec2(round(corner.x + (room.x - width * scale) / 2), round(corner.y + (room.y - height * scale) / 2))
-        end = ImVec2(at.x + width * scale, at.y + height * scale)
-        painter = imgui.get_window_draw_list()
-        painter.add_rect_filled(corner, ImVec2(corner.x + room.x, corner.y + room.y), theme.packed(theme.FIELD), 4)
-        w.placed("region", at, end)
-        picture = desk.pictures.get(f"region {state.chosen}")
-        if picture is not None:
-            painter.add_image(picture, at, end)
-        free = not imgui.is_popup_open("", imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level)
-        state.spot = (at.x, at.y, scale) if free else None
-        if state.over(desk.pointer.x, desk.pointer.y) and region.way != "colour":
-            painter.push_clip_rect(at, end, True)
-            middle, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, region.radius * scale)
-            painter.add_circle(middle, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.6), 0, 1.6 * desk.scale)
-            painter.add_circle(middle, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.9), 0, desk.scale)
-            painter.pop_clip_rect()
-
     def _tools(self, desk: Desk, region: RegionState) -> None:
         gap = 2 * desk.scale
         region.way = w.segments("way", region.way, _WAYS) or region.way
@@ -121,6 +100,9 @@ class RegionPanel:
                 imgui.same_line(0, gap)
             if w.text_button(label, hint, enabled=i > 0 or not region.scene.opaque, width=room):
                 region.do(desk.post, step)
+        hint = "Finds what lies on the picture's ground, to be cut out"
+        if w.text_button(f"{icons.WAND} Find it###find", hint, width=-1):
+            cutting_work.find(desk)
         self._steps(desk, region)
 
     def _steps(self, desk: Desk, region: RegionState) -> None:

@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 
 from bench.composites import composites
 from bench.masks import judged
-from engine.texture.mattes.finding import Mark, cut_out_of, outlined, sought, where_marked
+from engine.texture.mattes.finding import cut_out_of, outlined, sought
 from engine.texture.mattes.fine_rim import colours_without
+from engine.texture.mattes.marks import Mark, where_marked
 from engine.texture.mattes.patchwork import SUPERPIXELS, patchwork, reduced
 from engine.texture.mattes.things import cut_apart, grown_region, things
 
