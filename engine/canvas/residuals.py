@@ -122,9 +122,7 @@ def _record(pyramid: Pyramid, it: _Renewed) -> Record | _Told | None:
         return _dense_record(it, None)
     old = effective(pyramid, it.key, before)
     sheets = old.sheets
-    if sheets is not None:
-        return _sparse_record(it, sheets)
-    record = _dense_record(it, old)
+    record = _dense_record(it, old) if sheets is None else _sparse_record(it, sheets)
     if old is before and isinstance(record, Record):
         record.came_from(Since.it(before, it.within(it.part), it.touched[1]))
     return record

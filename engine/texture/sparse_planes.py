@@ -36,7 +36,7 @@ class SparseSheet:
         columns = np.flatnonzero(marked.any(axis=0))
         y0, y1, x0, x1 = int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1
         part = data[:, y0:y1, x0:x1]
-        most = max(int(part.max()), -int(part.min()))
+        most = _most(part)
         kept = part.astype(np.int16 if most < 1 << 15 else np.int32)
         kept.flags.writeable = False
         x, y = corner
@@ -59,10 +59,18 @@ class SparseSheet:
     def replaced(self, data: np.ndarray, rect: Rect) -> SparseSheet | None:
         """Returns it with `data` in place of what lies in `rect`."""
         whole = self.rect.union(rect)
-        out = np.zeros((len(self.data), whole.height, whole.width), np.int32)
-        self.paste(out, whole)
+        kind = np.int16 if max(self.most, _most(data)) < 1 << 15 else np.int32
+        if whole == self.rect and self.data.dtype == kind:
+            out = self.data.copy()
+        else:
+            out = np.zeros((len(self.data), whole.height, whole.width), kind)
+            self.paste(out, whole)
         out[:, *rect.slices(whole)] = data
-        return SparseSheet.of(out, (whole.x0, whole.y0))
+        edges = out[:, 0], out[:, -1], out[:, :, 0], out[:, :, -1]
+        if kind is np.int32 or not all(edge.any() for edge in edges):  # it may be smaller, in one way or the other
+            return SparseSheet.of(out, (whole.x0, whole.y0))
+        out.flags.writeable = False
+        return SparseSheet(whole, out, _most(out))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -170,6 +178,11 @@ class OfSheets:
     def plain(self) -> SparsePlanes:
         """Returns the planes."""
         raise NotImplementedError
+
+
+def _most(data: np.ndarray) -> int:
+    """Returns the largest absolute value of some integers."""
+    return max(int(data.max()), -int(data.min()))
 
 
 def _places(inks: tuple[Instance, ...]) -> Iterable[tuple[int, Instance]]:

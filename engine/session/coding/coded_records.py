@@ -121,15 +121,19 @@ class CodedSheets(CodedData, OfSheets):
         known = _SHEETS.get(self)
         if known is not None:
             return known
-        base = _sheets(self.other) if self.other is not None else None
+        made = self._unpacked()
+        _SHEETS.keep(self, made, made.nbytes)
+        return made
+
+    def _unpacked(self) -> SparsePlanes:
+        """Makes the sheets."""
+        base = sheets_of(self.other) if self.other is not None else None
         out = self._added(_sheets_over(base, self.rect, self.inks, self.dtype, self.coloured))
         new = SparsePlanes.of(self.rect, out, self.inks)
         shared = base.inks if base is not None else {}
         inks = {ink: new.inks[ink] if ink in new.inks else shared[ink] for ink in self.stack}
         colours = new.colours if self.coloured or base is None else base.colours
-        made = SparsePlanes(self.rect, colours, inks)
-        _SHEETS.keep(self, made, new.nbytes)
-        return made
+        return SparsePlanes(self.rect, colours, inks)
 
     def made(self) -> np.ndarray:
         """Returns the data, read-only."""
@@ -240,7 +244,7 @@ def _coded(record: Record, other: Record | None) -> CodedData:
 
 def _coded_sheets(record: Record, held: SparsePlanes, other: Record | None) -> tuple[CodedSheets, int]:
     """Returns many inks coded, and the bytes of the sheets that are not shared with the other record."""
-    base = None if other is None else _sheets(other)
+    base = None if other is None else sheets_of(other)
     shared, rect = {} if base is None else base.inks, record.rect
     inks = tuple(ink for ink in record.inks if held.inks[ink] is not shared.get(ink))
     coloured = base is None or held.colours is not base.colours
@@ -252,7 +256,7 @@ def _coded_sheets(record: Record, held: SparsePlanes, other: Record | None) -> t
     return coded, sum(sheet.nbytes for sheet in sheets)
 
 
-def _sheets(record: Record) -> SparsePlanes:
+def sheets_of(record: Record) -> SparsePlanes:
     """Returns what a record holds as sheets."""
     found = record.sheets
     return SparsePlanes.of(record.rect, record.data, record.inks) if found is None else found

@@ -13,6 +13,7 @@ from isal import isal_zlib
 from engine.canvas.rising import span_values
 from engine.canvas.store import Record
 from engine.session.coding.coded_records import CodedData, Ways, joined_bytes, split_bytes
+from engine.session.coding.sheets_within import sheets_within
 
 _LESS = 2  # a record's own bytes are such a multiple of what is kept of it, at least: else it stays whole
 _SMALL = 64  # bytes that are not worth it to be compressed
@@ -56,7 +57,7 @@ class SpannedData(CodedData):
 def lessen(ways: Ways, record: Record, other: Record) -> None:
     """Keeps of a record no more than where `other`, which took its place now, differs: that is known now, and noted no
     longer."""
-    coded = spanned(record, other)
+    coded = spanned(record, other) or sheets_within(record, other)
     if coded is not None and ways.lead(record, other):
         record.exchange(coded)
     other.came_from(None)
