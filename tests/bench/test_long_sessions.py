@@ -2,7 +2,7 @@
 
 import pytest
 
-from bench import extremes, soak
+from bench import crowded, extremes, soak
 
 
 @pytest.mark.parametrize("kind", ["places", "levels"])
@@ -18,3 +18,11 @@ def test_a_short_soak_ends_where_it_began():
     assert rows[3]["bytes"] > 0
     assert rows[-1]["empty"]
     assert rows[-1]["undone"] + rows[-1]["left to replay"] == rows[1]["all steps"]
+
+
+def test_a_crowd_of_strokes_is_painted_on_seen_saved_and_opened():
+    rows = list(crowded.main(64, True))
+    assert [row["level"] for row in rows if "level" in row] == [0, -1, -2, -3, -4]
+    assert rows[0]["strokes"] == 64
+    assert rows[-2]["bytes"] > 0
+    assert rows[-1]["opened"] > 0.0
