@@ -33,6 +33,7 @@ def pytest_collection_modifyitems(items):
 def pytest_collection_finish():
     """What is loaded now stays, and need not be looked through again and again."""
     gc.freeze()
+    gc.set_threshold(50_000, 20, 50)  # as where kernels are compiled: a seventh of that time, and some of hypothesis's
     gc.enable()
 
 

@@ -108,7 +108,7 @@ class Stroker:
     def _count(self, points: np.ndarray, dabs: np.ndarray, rest: bool) -> int:
         if self._felt is None:
             return walk_points(points, self._state, *self._response, dabs)
-        return walk_felt(points, self._state, self._felt, self._key, dabs, rest)
+        return int(walk_felt(points, self._state, self._felt, self._key, dabs, rest))
 
 
 def stroke_key(seed: int, level: int, origin: tuple[int, int]) -> int:

@@ -15,7 +15,7 @@ from engine.brush import inputs
 from engine.brush.felt import Feeling, chance, pace_at, plain_chance, respond_felt, sense, way_at
 from engine.brush.targets import ANGLE, FLOW, HARDNESS, HUE, OPACITY, RADIUS, RATIO, SCATTER, SPACING
 from engine.numeric.elementary import cos, sin
-from engine.numeric.kernel import Array, inner, kernel
+from engine.numeric.kernel import Array, Int, inner, kernel
 from engine.numeric.stand_in import or_interpreted
 
 STEP_FLOOR = 0.25  # px
@@ -51,8 +51,8 @@ def _write(x: float, y: float, felt: Feeling, now: Array, dab: Array) -> None:
 
 @inner
 def _write_hairs(
-    x: float, y: float, felt: Feeling, key: np.uint64, gone: float, now: Array, dabs: Array, made: int
-) -> int:
+    x: float, y: float, felt: Feeling, key: np.uint64, gone: float, now: Array, dabs: Array, made: Int
+) -> Int:
     """Writes a dab for each hair; returns how many there are now.
 
     The paint runs along the stroke: a hair lays as much as the brush can while it is wet, which it is the longer the
@@ -90,8 +90,8 @@ def _place(
     sensed: Array,
     now: Array,
     dabs: Array,
-    made: int,
-) -> tuple[int, float]:
+    made: Int,
+) -> tuple[Int, float]:
     """Writes the dabs of one place; returns how many there are now, and how far it is to the next place."""
     x, y = (
         state[f.AT_X] + (point[f.AT_X] - state[f.AT_X]) * part,
@@ -137,13 +137,14 @@ def _go_on(point: Array, state: Array, length: float, felt: Feeling) -> None:
 
 @or_interpreted(chance=plain_chance)
 @kernel
-def walk_felt(points: Array, state: Array, felt: Feeling, key: np.uint64, dabs: Array, rest: bool) -> int:
+def walk_felt(points: Array, state: Array, felt: Feeling, key: np.uint64, dabs: Array, rest: bool) -> Int:
     """Advances `state` over the points; writes the dabs that fit into `dabs` and returns how many there are.
 
     `rest`: no more comes, so that a dab that still waits for its direction is laid without.
     """
     now, sensed = np.empty(felt.values.shape[0]), np.zeros(felt.used.shape[0] + 1)
-    made, each = 0, felt.plan[f.HAS_COUNT] * max(1, felt.hairs.shape[0])
+    made: Int = np.int64(0)  # a constant would have what takes it compiled for that, too
+    each = felt.plan[f.HAS_COUNT] * max(1, felt.hairs.shape[0])
     for i in range(points.shape[0]):
         point = points[i]
         if state[f.IS_BEGUN] == 0.0:

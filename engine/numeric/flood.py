@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.numeric.address import Rect
-from engine.numeric.kernel import Int, Real, forced, inner, kernel
+from engine.numeric.kernel import Int, Low, Real, forced, inner, kernel
 
 RINGS = 4  # pixels beyond a region that may belong to it in part
 HALO = 1.0 / 16.0  # of what lies under a soft line that may still be seen beside it
@@ -194,7 +194,10 @@ def grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
     height, width = known.shape
     free = known.reshape(-1)
     queue, other = np.empty(4096 + width, np.int64), np.empty(4096 + width, np.int64)
-    count = others = 0
+    first: Low = np.int64(1)
+    kind: Low = np.int64(REACHED)
+    count: Low = np.int64(0)  # a constant would have what takes it compiled for that, too
+    others: Low = np.int64(0)
     top, bottom, left, right = height, 0, width, 0  # of the own front
     for y in range(1, height - 1):
         own, out = core[y], known[y]
@@ -203,16 +206,18 @@ def grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
         if count + width > queue.shape[0]:
             queue = _longer(queue)
         before = count
-        count = _fronts(core, y, 1, width - 1, REACHED, queue, count)
+        count = _fronts(core, y, first, width - 1, kind, queue, count)
         if count > before:
             top, bottom = min(top, y), y + 1
             left, right = min(left, queue[before] - y * width), max(right, queue[count - 1] - y * width + 1)
     far = 2 * steps  # others from beyond come too late
+    kind = np.int64(FREE)
     for y in range(max(1, top - far), min(height - 1, bottom + far)):
         if others + width > other.shape[0]:
             other = _longer(other)
-        others = _fronts(core, y, max(1, left - far), min(width - 1, right + far), FREE, other, others)
-    done = others_done = 0
+        others = _fronts(core, y, max(first, left - far), min(width - 1, right + far), kind, other, others)
+    done: Low = np.int64(0)
+    others_done: Low = np.int64(0)
     for _ in range(steps):
         queue, done, count = _ring(free, width, queue, done, count, np.uint8(REACHED))
         other, others_done, others = _ring(free, width, other, others_done, others, np.uint8(OTHER))
@@ -300,7 +305,7 @@ def cover_region(
     """
     height, width = covered.shape
     queue = np.empty(4096 + width, np.int64)
-    count = 0
+    count: Low = np.int64(0)
     near, rim = np.empty(width + 2, np.uint8), np.empty(width, np.uint8)
     bounds[:] = width, height, 0, 0
     reached = False
@@ -322,7 +327,7 @@ def cover_region(
         y, x = queue[n] // width, queue[n] % width
         part = _part(planes, colour, y, x) if known[y + 1, x + 1] == SHUT else _BESIDE
         covered[y, x] = max(part, _BESIDE)
-    done = 0
+    done: Low = np.int64(0)
     for _ in range(RINGS - 1):
         queue, done, count = _rise(planes, colour, known, covered, bounds, queue, done, count)
     bounds[0], bounds[1] = min(bounds[0], bounds[2]), min(bounds[1], bounds[3])

@@ -14,6 +14,8 @@ from numba import njit
 from numba.extending import register_jitable
 from numba.np import linalg
 
+from engine.numeric import lean_compiling
+
 F = TypeVar("F", bound=Callable[..., Any])
 Array = np.ndarray
 Int = int | np.integer[Any]  # a whole number of any width
@@ -21,6 +23,7 @@ Real = float | np.floating[Any]
 Low = Any  # what numba and LLVM make of a value, which have no types
 # With the first kernel numba loads SciPy's linear algebra, 24 MB, to see whether it is there: no kernel calls it.
 linalg.ensure_blas = lambda: None
+lean_compiling.leave_out()
 
 
 def kernel(function: F) -> F:

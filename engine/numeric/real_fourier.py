@@ -247,7 +247,7 @@ def _multiply(x: Array, by: Array, sign: np.float32) -> None:
 @inner
 def _stepped(x: Array, u: Array, factors: Array, waves: Array) -> Array:
     """Returns the transform of a block of as many numbers as there are waves."""
-    left, stride = waves.size // 2, 1
+    left, stride = waves.size // 2, np.int64(1)  # a constant would have what takes it compiled for that, too
     for r in factors:
         left //= r
         if r > IN_REGISTERS:

@@ -8,12 +8,19 @@ read any more: its parent is gone.
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import threading
 import traceback
 from queue import SimpleQueue
 from typing import Any, TextIO
+
+_RARELY = (
+    50_000,
+    20,
+    50,
+)  # objects, and rounds: what a kernel is compiled with is hundreds of thousands that stay a while
 
 
 class Elsewhere(Exception):
@@ -54,6 +61,7 @@ class Post:
 
 def main(niceness: int) -> None:
     """Works until the parent has gone."""
+    gc.set_threshold(*_RARELY)  # else a seventh of the time goes into looking for garbage
     if hasattr(os, "nice"):
         os.nice(niceness)
     target = os.fdopen(os.dup(1), "w", encoding="utf-8")

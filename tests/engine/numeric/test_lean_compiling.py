@@ -1,0 +1,72 @@
+"""Compiling leaves out what no kernel needs; what it tells, refuses and compares stays right."""
+
+import numpy as np
+import pytest
+from numba.core import event
+from numba.core.compiler import Flags
+from numba.core.typing import templates
+
+from engine.numeric import lean_compiling
+from engine.numeric.kernel import inner, kernel
+
+
+@inner
+def _most(values: np.ndarray) -> float:
+    return max(values[0], min(values[1], values[2]))
+
+
+@kernel
+def _put(values: np.ndarray, out: np.ndarray) -> float:
+    out[1:] = values
+    return min(_most(values), max(values[0], values[1]))
+
+
+def _overloads(name: str) -> list[str]:
+    """What numba's own function of that name was compiled for, by the arguments' types."""
+    return [
+        str(key[1])
+        for template in templates.builtin_registry.functions
+        if getattr(getattr(template, "_overload_func", None), "__name__", "") == name
+        for key in template._impl_cache
+        if "float64" in str(key[1])
+    ]
+
+
+def test_a_kernel_is_told_of_when_somebody_listens_and_carries_nothing_that_joins_strings():
+    values, out = np.array([1.0, 2.0, 3.0]), np.zeros(4)
+    with event.install_recorder("numba:compile") as recorded:
+        assert _put(values, out) == 2.0
+    assert {told.data["dispatcher"].py_func.__name__ for _, told in recorded.buffer} >= {"_put", "_most"}
+    assert out.tolist() == [0.0, 1.0, 2.0, 3.0]
+    code = _put.inspect_llvm(_put.signatures[0])
+    assert "unicode" not in code
+    assert "cfunc." not in code
+    with pytest.raises(ValueError, match="different size"):
+        _put(values, np.zeros(6))
+
+
+def test_numbas_own_functions_are_compiled_once_for_kernels_of_both_sorts():
+    _put(np.array([1.0, 2.0, 3.0]), np.zeros(4))
+    for name in ("ol_min", "ol_max"):
+        found = _overloads(name)
+        assert len(found) == len(set(found))
+
+
+def test_what_kernels_are_compiled_with_is_compared_by_value():
+    one, other = Flags(), Flags()
+    assert one.no_cfunc_wrapper
+    assert one == other
+    one.nrt = Flags.options["nrt"].default
+    assert one == other
+    assert hash(one) == hash(other)
+    one.nrt = not other.nrt
+    assert one != other
+    assert one != 1
+
+
+def test_leaving_out_twice_does_no_harm_and_what_numba_lacks_is_left_alone(monkeypatch):
+    lean_compiling.leave_out()
+    assert Flags() == Flags()
+    monkeypatch.setattr(lean_compiling, "ffi", object())  # another version, without that lock
+    monkeypatch.setattr(lean_compiling, "arrayobj", object())
+    lean_compiling.leave_out()
