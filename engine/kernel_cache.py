@@ -6,6 +6,9 @@ index; a file begins with the hash of the rest, and one that is damaged counts a
 written to is done without.  numba loads this module by the name in NUMBA_CACHE_LOCATOR_CLASSES, which
 `engine/__init__` sets, as the first kernel is declared.
 
+What counts references for kernels is kept as well: numba compiles it at every start, which brings 20 MB of LLVM into
+memory.
+
 A thread may forbid itself to compile (`refusing`): a kernel that is not in the cache then raises NotCompiled.
 """
 
@@ -23,8 +26,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import llvmlite
 import numba
 from numba.core import caching
+from numba.core.runtime import nrtdynmod
 from numba.core.serialize import dumps
 
 ENDING = ".kernel"
@@ -113,9 +118,7 @@ class KernelFile:
     def save(self, key: tuple[Any, ...], data: object) -> None:
         """Keeps `data` for `key`, in one step."""
         path = self.path(key)
-        content = dumps(data)
-        with suppress(OSError):
-            _write(path, hashlib.sha256(content).digest() + content)
+        _keep(path, data)
         if _local.compiling == path.name:
             _local.compiling = ""
             if _local.watch is not None:
@@ -194,4 +197,27 @@ def _source(path: Path) -> bytes:
     return path.read_bytes()
 
 
+def _runtime(context: Any) -> object:
+    """Returns the library that counts references, from its file if there is one."""
+    codegen = context.codegen()
+    told = f"{numba.__version__} {llvmlite.__version__} {codegen.magic_tuple()!r} {numba.config.DEBUG_NRT}"
+    path = Path(numba.config.CACHE_DIR) / f"references.{hashlib.sha256(told.encode()).hexdigest()[:20]}"
+    found = _read(path)
+    if found is not None:
+        return codegen.unserialize_library(found)
+    module, library = nrtdynmod.create_nrt_module(context)
+    library.enable_object_caching()
+    library.add_ir_module(module)
+    library.finalize()
+    _keep(path, library.serialize_using_object_code())
+    return library
+
+
+def _keep(path: Path, data: object) -> None:
+    content = dumps(data)
+    with suppress(OSError):
+        _write(path, hashlib.sha256(content).digest() + content)
+
+
 caching.IndexDataCacheFile = KernelFile
+nrtdynmod.compile_nrt_functions = _runtime

@@ -21,6 +21,16 @@ numba.config.reload_config()  # it was there before the engine told it where ker
 import toy
 print(toy.double(21), sum(toy.double.stats.cache_hits.values()))
 """
+RUNTIME = """
+import sys
+sys.path[:0] = sys.argv[1:3]
+import engine
+from numba.core.runtime import nrtdynmod
+made, create = [], nrtdynmod.create_nrt_module
+nrtdynmod.create_nrt_module = lambda context: made.append(context) or create(context)
+import numpy, toy
+print(toy.double(numpy.arange(3.0)).sum(), len(made))
+"""
 # Runs a program for each line that it reads, in a process that has loaded numba already, and nothing of the engine.
 SERVER = """
 import json, os, sys
@@ -88,6 +98,14 @@ def test_a_kernel_is_compiled_once(toy):
     assert toy.call() == [42, 1]
     assert len(toy.kernels()) == 1
     assert toy.kernels()[0].is_relative_to(toy.cache)
+
+
+def test_what_counts_references_is_compiled_once(toy):
+    for made in (1, 0):
+        command = [sys.executable, "-B", "-c", RUNTIME, str(ROOT), str(toy.folder)]
+        told = subprocess.run(command, env=toy.environment, capture_output=True, text=True, check=True)
+        assert told.stdout.split() == ["6.0", str(made)]
+    assert [path.name.partition(".")[0] for path in toy.cache.iterdir() if path.is_file()] == ["references"]
 
 
 NIGHTLY = [pytest.param(damage, marks=pytest.mark.nightly) for damage in ("empty", "flipped")]
