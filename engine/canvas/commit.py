@@ -7,18 +7,20 @@ applied when they are next looked at.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import itertools
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from engine.brush.stamp import Edit
 from engine.canvas.attenuate import fold
 from engine.canvas.evaluate import evaluate
-from engine.canvas.front import Around, Patch, climbs, cropped, lift, united
+from engine.canvas.front import Around, Patch, climbs, cropped, known_around, united
 from engine.canvas.painted import paint, tile_bounds
-from engine.canvas.residuals import NewRecords, store
+from engine.canvas.residuals import NewRecords, store, values_beside
 from engine.canvas.rising.lasting import Lasting
 from engine.canvas.rising.level_bounds import LevelTiles
+from engine.canvas.rising.risen import Risen, rise
 from engine.canvas.store import Attenuation, Change, Pyramid, Record, finer_levels, level_bounds, level_of
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
@@ -64,20 +66,24 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
     keeps: Keeps | None = {} if _stored_below(pyramid, edit.level, tile_bounds(keys)) else None
     records: NewRecords = {}
     painted: list[Patch] = []
-    lifted: list[Patch] = []
+    risen: list[Risen] = []
+    around: list[Around] = []
     if _is_at_once(pyramid, edit.level, tile_bounds(keys), _most(cache)):
         painted = paint(pyramid, edit, keys, cache)
         changed = _noted(painted, keeps)
         if painted:
-            levels = climbs(pyramid, edit.level, tile_bounds([patch.key for patch in painted]), cache)
-            lifted = _climb_to_the_top(pyramid, painted, None, levels, records)
+            bounds = tile_bounds([patch.key for patch in painted])
+            around = known_around(pyramid, edit.level, bounds, cache)
+            levels = climbs(pyramid, edit.level, bounds, cache, around)
+            risen = _climb_to_the_top(pyramid, painted, None, levels, records, cache)
     else:
         changed = _by_slabs(pyramid, edit, keys, records, keeps, cache)
     if not records and not keeps:
         return pyramid
     after = _with_records(pyramid, edit, changed, keeps or None, records)
     if cache is not None and painted and after.last is not None:
-        cache.raised(after.last, [*painted, *lifted])
+        cache.raised(after.last, painted, risen)
+        cache.front.keep(after, around)
         for tile in painted:  # they are on the screen
             cache.adopt(after, tile.key, tile.new)
     return after
@@ -96,21 +102,38 @@ def _lasting(patch: Patch) -> Lasting:
 
 
 def _climb_to_the_top(
-    pyramid: Pyramid, patches: Sequence[Patch], here: Around | None, levels: Iterator[Around], records: NewRecords
-) -> list[Patch]:
-    """Stores this level's residuals and all coarser ones', up to where nothing changes any more.  Returns the patches
-    of these.
+    pyramid: Pyramid,
+    patches: Sequence[Patch],
+    here: Around | None,
+    levels: Iterator[Around],
+    records: NewRecords,
+    cache: TileCache | None,
+) -> list[Risen]:
+    """Stores this level's residuals and all coarser ones', up to where nothing changes any more.  Returns the coarser
+    levels that change.
 
     `here` has the level's new values; None if the patches are the edit's own.
     """
-    coarser: list[Patch] = []
-    while patches:
-        above = next(levels)
-        lifted = lift(pyramid, patches, above)
-        store(pyramid, patches, here, lifted, above, None, records)
-        coarser += lifted
-        patches, here = lifted, above
-    return coarser
+    return _climb(pyramid, patches, here, levels, None, None, records, cache)
+
+
+def _climb(
+    pyramid: Pyramid,
+    patches: Sequence[Patch],
+    here: Around | None,
+    levels: Iterator[Around],
+    most: int | None,
+    inside: Callable[[int], Rect] | None,
+    records: NewRecords,
+    cache: TileCache | None,
+) -> list[Risen]:
+    """As `_climb_to_the_top`, so many levels at `most`, of the last of which no residuals are stored; and only of tiles
+    that meet `inside`."""
+    first = next(levels)
+    values = values_beside(pyramid, patches, first, cache) if here is None else {}
+    found, changes = rise(pyramid, patches, itertools.chain([first], levels), most)
+    store(pyramid, patches, here, found, inside, records, values)
+    return found if changes else found[:-1]
 
 
 def _by_slabs(
@@ -133,12 +156,12 @@ def _by_slabs(
         if painted:
             changed = changed.union(_noted([patch for patch in painted if patch.key.rect.meets(slab)], keeps))
             levels = climbs(pyramid, edit.level, united(patch.at for patch in painted), cache)
-            tops += _climb_slab(pyramid, painted, None, levels, (slab, climb), records)
+            tops += _climb_slab(pyramid, painted, None, levels, (slab, climb), records, cache)
     while _bytes_of(tops) > _most(cache):
         tops = _higher(pyramid, tops, records, cache)
     if tops:
         here, levels = _joined(pyramid, tops, cache)
-        _climb_to_the_top(pyramid, tops, here, levels, records)
+        _climb_to_the_top(pyramid, tops, here, levels, records, cache)
     return changed
 
 
@@ -202,7 +225,7 @@ def _higher(pyramid: Pyramid, patches: Sequence[Patch], records: NewRecords, cac
         parts = [patch for patch in cut if patch is not None]
         if parts:
             here, levels = _joined(pyramid, parts, cache)
-            tops += _climb_slab(pyramid, parts, here, levels, (slab, climb), records)
+            tops += _climb_slab(pyramid, parts, here, levels, (slab, climb), records, cache)
     return tops
 
 
@@ -213,18 +236,16 @@ def _climb_slab(
     levels: Iterator[Around],
     square: tuple[Rect, int],
     records: NewRecords,
+    cache: TileCache | None,
 ) -> list[Patch]:
     """Stores the residuals of one square, of its own tiles only, at so many levels.  Returns the patches within it that
     are left for all together."""
     slab, climb = square
-    for j in range(climb):
-        above = next(levels)
-        lifted = lift(pyramid, patches, above)
-        store(pyramid, patches, here, lifted, above, slab.zoomed(-j), records)
-        if not lifted:
-            return []
-        patches, here = lifted, above
-    return [patch for patch in patches if patch.key.rect.meets(slab.zoomed(-climb))]
+    found = _climb(pyramid, patches, here, levels, climb, lambda j: slab.zoomed(-j), records, cache)
+    if len(found) < climb:
+        return []
+    tops = found[-1].patches(patches[0].spares_alpha)
+    return [patch for patch in tops if patch.key.rect.meets(slab.zoomed(-climb))]
 
 
 def _slabs(rects: Sequence[Rect], climb: int) -> list[Rect]:

@@ -64,8 +64,8 @@ def filled_planes(inks: tuple[Instance, ...], used: np.ndarray) -> tuple[np.ndar
 def trimmed(rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], depth: int) -> Record | None:
     """As `compact`, of int16, which is the record's own where nothing is to be left out."""
     used = np.empty(len(data), np.int32)
-    bits, y0, y1, x0, x1 = counting.edges(data, used)
-    if bits == 0:
+    found, y0, y1, x0, x1 = counting.edges(data, used, np.empty(data.shape[2], np.int16))
+    if not found:
         return None
     planes, kept = filled_planes(inks, used)
     at = Rect(rect.x0 + x0, rect.y0 + y0, rect.x0 + x1, rect.y0 + y1)

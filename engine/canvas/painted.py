@@ -33,6 +33,8 @@ def tile_bounds(keys: Collection[TileKey]) -> Rect:
     """Returns the smallest rectangle that holds all of some tiles of one level."""
     if not keys:
         return Rect(0, 0, 0, 0)
+    if len(keys) == 1:  # as of most batches of a pen's points
+        return next(iter(keys)).rect
     xs, ys = [key.x for key in keys], [key.y for key in keys]
     return Rect(min(xs) * TILE, min(ys) * TILE, (max(xs) + 1) * TILE, (max(ys) + 1) * TILE)
 

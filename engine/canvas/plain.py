@@ -18,7 +18,7 @@ LAG = np.float32(2.0)
 
 Pair = tuple[Array, Array]
 Corner = tuple[int, int]
-Window = tuple[int, int, int, int, int, int]
+Window = tuple[int, ...]
 
 
 def any_nonzero(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> bool:

@@ -5,19 +5,21 @@ Touched are the pixels that changed, and the children of every parent that chang
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 
 import numpy as np
 
 from engine.canvas.attenuate import effective, placed
 from engine.canvas.compact import compact, trimmed
 from engine.canvas.evaluate import add_texture, step
-from engine.canvas.front import Around, Patch, blank_marks
+from engine.canvas.front import Around, Patch
 from engine.canvas.rising import counting
-from engine.canvas.rising.spans import Marks
+from engine.canvas.rising.risen import Risen, Touched
 from engine.canvas.store import Pyramid, Record, Since
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, merged, plane_map, widened
@@ -41,64 +43,76 @@ def store(
     pyramid: Pyramid,
     patches: Sequence[Patch],
     here: Around | None,
-    lifted: Sequence[Patch],
+    above: Sequence[Risen],
+    inside: Callable[[int], Rect] | None,
+    records: NewRecords,
+    beside: Mapping[TileKey, Around],
+) -> None:
+    """Residuals of a level, and of those above it but the last: of what changed, and of the children of what changed
+    above.
+
+    `here` has the level's new values; None for an edit's own, whose patches are whole tiles, and then `beside` has
+    those of tiles beside them.  Only tiles that meet `inside`, so many levels above, are written (None: all).
+    """
+    values = {patch.key: Around(patch.key.level, patch.at, patch.new) for patch in patches} | dict(beside)
+    touched = Touched.of_patches(patches, above[0])
+    _store(pyramid, touched, values if here is None else here, above[0].around, inside and inside(0), records)
+    for n, (level, coarser) in enumerate(pairwise(above), 1):
+        touched = Touched.of_level(level, coarser)
+        _store(pyramid, touched, level.around, coarser.around, inside and inside(n), records)
+
+
+def _store(
+    pyramid: Pyramid,
+    touched: Touched,
+    new: Mapping[TileKey, Around] | Around,
     above: Around,
     inside: Rect | None,
     records: NewRecords,
 ) -> None:
-    """Residuals of a level: of what changed there, and of the children of what changed above.
-
-    `here` has the level's new values; None for an edit's own, whose patches are whole tiles.  `lifted` are the patches
-    above: `above` takes them.  Only tiles that meet `inside` are written (None: all).
-    """
-    changed = {patch.key: patch for patch in patches}
-    level = patches[0].key.level
-    parts = {key: part for key, part in _reached(patches, lifted).items() if inside is None or key.rect.meets(inside)}
-    values: dict[TileKey, Around] = {}
-    before = None if above.blank else above.planes
-    above.mark(lifted)
-    for key, part in parts.items():
-        if here is not None:
-            values[key] = here
-        elif key in changed:
-            values[key] = Around(level, key.rect, changed[key].new)
-        elif above.spread(part, blank_marks(part.height, part.width)):
-            values[key] = Around(level, part, step(pyramid, before, above.rect, level, part))
-    above.take(lifted)
-    for key, value in values.items():
-        part = parts[key]
-        touched = blank_marks(part.height, part.width)
-        patch = changed.get(key)
-        if patch is not None:
-            own = patch.dirty
-            touched[0][own.slices(part)] = patch.marks[0][own.slices(patch.at)]
-        if above.spread(part, touched):
-            record = _record(pyramid, _Renewed(key, part, touched, value, above, pyramid.depth + 1, pyramid.step))
-            if not isinstance(record, _Told):
-                records[key] = record
+    """Residuals of one level, where they are touched."""
+    for key, part in touched.tiles():
+        value = new if isinstance(new, Around) else new.get(key)
+        if value is None or not (inside is None or key.rect.meets(inside)):
+            continue
+        record = _record(pyramid, _Renewed(key, part, touched, value, above, pyramid.depth + 1, pyramid.step))
+        if not isinstance(record, _Told):
+            records[key] = record
 
 
-def _reached(patches: Sequence[Patch], lifted: Sequence[Patch]) -> dict[TileKey, Rect]:
-    """Returns by tile the even rectangles in which the residual may change."""
-    level = patches[0].key.level
-    parts = {patch.key: patch.dirty.evened() for patch in patches}
-    for parent in lifted:
-        reach = parent.dirty.zoomed(1).grown(2)
-        for key in reach.tiles(level):
-            part = reach.intersect(key.rect)
-            held = parts.get(key)
-            parts[key] = part if held is None else held.union(part)
-    return parts
+def values_beside(
+    pyramid: Pyramid, patches: Sequence[Patch], above: Around, cache: TileCache | None
+) -> dict[TileKey, Around]:
+    """Returns the values of an edit's level beside its patches, in tiles that it leaves as they are, where what it
+    makes of the level above, whose old values are given, can change residuals."""
+    parts: dict[TileKey, Rect] = {}
+    known = {patch.key for patch in patches}
+    for patch in patches:
+        reach = patch.dirty.evened().grown(2)
+        if reach.intersect(patch.key.rect) != reach:
+            for key in reach.tiles(patch.key.level):
+                if key not in known:
+                    part = reach.intersect(key.rect)
+                    parts[key] = part if key not in parts else parts[key].union(part)
+    return {key: _there(pyramid, key, part, above, cache) for key, part in parts.items()}
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+def _there(pyramid: Pyramid, key: TileKey, part: Rect, above: Around, cache: TileCache | None) -> Around:
+    """Returns the values of a part of a tile at least, given those above."""
+    there, value = cache.view(pyramid, key) if cache is not None else (False, None)
+    if there:
+        return Around(key.level, key.rect, value)
+    return Around(key.level, part, step(pyramid, above.planes, above.rect, key.level, part))
+
+
+@dataclass(eq=False, slots=True)  # not frozen: one is made for each tile, which takes three times as long then
 class _Renewed:
     """What is renewed of a tile: its residual in the even rectangle `part`, where it is `touched`; `new` has the new
     values there, `above` those of the level above."""
 
     key: TileKey
     part: Rect
-    touched: Marks
+    touched: Touched
     new: Around
     above: Around
     depth: int  # of the new record
@@ -124,7 +138,7 @@ def _record(pyramid: Pyramid, it: _Renewed) -> Record | _Told | None:
     sheets = old.sheets
     record = _dense_record(it, old) if sheets is None else _sparse_record(it, sheets)
     if old is before and isinstance(record, Record):
-        record.came_from(Since.it(before, it.within(it.part), it.touched[1]))
+        record.came_from(Since.it(before, it.within(it.part), it.touched.spans(it.key, it.part)))
     return record
 
 
@@ -146,7 +160,8 @@ def _from_data(it: _Renewed, old: Record | None, inks: tuple[Instance, ...]) -> 
     data, used = _unpacked(old, it.within(at), inks), np.empty(COLOURS + 3 * len(inks), np.int32)
     assert read.planes is not None
     start, corner = _corner(it.part, read.rect), _corner(it.part, at)
-    changed, *extent = counting.residual(read.planes.data, start, predicted, it.touched[0], corner, data, used, it.unit)
+    touched = it.touched.within(it.part)
+    changed, *extent = counting.residual(read.planes.data, start, predicted, touched, corner, data, used, it.unit)
     if not changed:
         return _SAME
     bits, y0, y1, x0, x1 = extent
@@ -172,12 +187,14 @@ def _renewed(it: _Renewed, old: Record | None, inks: tuple[Instance, ...]) -> Re
     data = _unpacked(old, it.within(at), inks, np.int16)
     read, coarse = _read(it.new, it.part, inks), it.above.with_inks(())
     assert read.planes is not None
-    start, corner = _corner(it.part, read.rect), _corner(it.part.parents(), it.above.rect)
-    planes, inner = plane_map(coarse.inks, inks), _corner(it.part, at)
-    row = np.empty(it.part.width, np.int32)
+    rect, row = it.touched.rect, np.empty(TILE, np.int32)
+    start, (top, left) = _corner(rect, read.rect), _corner(rect.zoomed(-1), it.above.rect)
+    tile, begin = it.key.x - rect.x0 // TILE, it.part.y0 - rect.y0
+    window = (begin, it.part.height, tile, *_corner(rect, at))
     changed, bits = counting.renew(
-        read.planes.data, start, coarse.data, corner, planes, it.touched, row, inner, data, it.unit
-    )
+        read.planes.data, start, coarse.data, (top - 1, left - 1), plane_map(coarse.inks, inks), it.touched.marks,
+        window, row, data, it.unit,
+    )  # fmt: skip
     if bits >= 1 << 15:
         return _Told.LARGE
     return trimmed(it.within(at), data, inks, it.depth) if changed else _SAME
@@ -200,7 +217,8 @@ def _sparse_record(it: _Renewed, held: SparsePlanes) -> Record | _Told | None:
     before = data.copy()
     read, used = Around(it.key.level, it.part, value), np.empty(COLOURS + 3 * len(inks), np.int32)
     predicted = _predicted(it, read)
-    if not counting.residual(value.data, (0, 0), predicted, it.touched[0], (0, 0), data, used, it.unit)[0]:
+    touched = it.touched.within(it.part)
+    if not counting.residual(value.data, (0, 0), predicted, touched, (0, 0), data, used, it.unit)[0]:
         return _SAME
     new = held.replaced(inner, data, inks, before)
     if new is None:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.canvas.rising import raised
-from engine.canvas.rising.raised import Raised, RaisedPatch, brought_up
+from engine.canvas.rising.raised import Front, PaintedTile, Raised, RisenLevel, brought_up
 from engine.canvas.store import Change, Pyramid, changes_between
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.column import Clip
@@ -23,6 +23,7 @@ _BEHIND = 128 << 20  # bytes
 _BESIDE = 176 << 20  # bytes of all levels but the one that is looked at
 _TILE_OVERHEAD = 300  # bytes of a tile's own objects, roughly
 _RAISED = 16 << 20  # bytes of what commits made of coarser levels, at most
+_FRONT = 64 << 20  # bytes of the levels around the newest one, at most
 _MOST = 60  # inks that are told apart in one number
 _ZERO = np.float32(0.0)
 _SQUARE, _MARGIN = 64, 8  # pixels of the side of what is kept of coarse levels, and around it
@@ -56,7 +57,7 @@ class TileCache:
 
     Those of levels that were left behind are evicted first, of one level the least recently used; and however much room
     there is, all that were left behind together take an eighth of it, and at most `_BEHIND`; with those next to the one
-    that is looked at half of it, and at most `_BESIDE`.
+    that is looked at half of it, and at most `_BESIDE`.  `front`: what the newest commit left of the levels around it.
     """
 
     def __init__(self, budget: int) -> None:
@@ -67,6 +68,7 @@ class TileCache:
         self.level: int | None = None  # that is looked at
         self._uses = 0
         self._raised = Raised(min(budget // 8, _RAISED))
+        self.front = Front(min(budget // 8, _FRONT))
         self._lock = threading.Lock()
 
     def look_at(self, level: int) -> None:
@@ -132,15 +134,16 @@ class TileCache:
             self._count(there, kept.nbytes)
             self._evict()
 
-    def raised(self, change: Change, patches: Sequence[RaisedPatch]) -> None:
+    def raised(self, change: Change, painted: Sequence[PaintedTile], risen: Sequence[RisenLevel]) -> None:
         """Takes what a commit made of its own level and of all coarser ones: tiles kept from before it stay good."""
         with self._lock:
-            self._raised.note(change, patches)
+            self._raised.note(change, painted, risen)
             self._evict()
 
     def clear(self) -> None:
         """Forgets all tiles."""
         with self._lock:
+            self.front.clear()
             self._levels.clear()
             self._raised.clear()
             self._held = 0
@@ -149,6 +152,7 @@ class TileCache:
         """Evicts tiles until at most so many bytes are held."""
         with self._lock:
             if self.held > to:
+                self.front.clear()
                 self._raised.clear()
             while self._held > to and self._levels:
                 self._evict_from(_farthest(self._levels, self.level))
@@ -156,7 +160,7 @@ class TileCache:
     @property
     def held(self) -> int:
         """Returns bytes held now."""
-        return self._held + self._raised.held
+        return self._held + self._raised.held + self.front.held
 
     def _count(self, there: _LevelTiles, more: int) -> None:
         there.held += more

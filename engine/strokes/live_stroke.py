@@ -105,7 +105,8 @@ class Drawn:
         Returns the pixels of the level whose preview may have changed.
         """
         table, dropped = fitted(np.atleast_2d(np.asarray(points, np.float64)))
-        table = like_first([*self._points[:1], table])[-len(table) :] if self._points and len(table) else table
+        if self._points and self._points[0].shape[1] != table.shape[1]:
+            table = like_first([self._points[0][:0], table])
         self.dropped += dropped
         return self.lay(table)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.canvas.plain import Corner
+from engine.canvas.plain import Corner, Window
 from engine.canvas.rising import plain_counting as plainly
 from engine.canvas.rising.spans import Found, Marks, Span
 from engine.numeric.grid import snap_to
@@ -123,22 +123,29 @@ def crop(data: Array, spans: Array, planes: Array, corner: Corner, out: Array) -
 @or_plain(plainly.renew)
 @uncounted
 def renew(
-    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, row: Array, at: Corner,
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, window: Window, row: Array,
     out: Array, step: np.float32,
 ) -> tuple[bool, int]:  # fmt: skip
-    """As `first_residual` of a tile that has a residual: `out` int16 (C, H, W) from `at` on, which is it, is written
-    where it is touched.  Returns whether that changed it, and the bits of the absolute values that belong there: not
-    below 2^15 where `out` cannot hold them.  `row`, int32 (2w,), is written over."""
+    """As `first_residual` of a tile that has a residual: `out` int16 (C, h, w), which is it, is written where it is
+    touched.  Returns whether that changed it, and the bits of the absolute values that belong there: not below 2^15
+    where `out` cannot hold them.
+
+    `marks`: `touched` uint8 (H, W), and its spans (H, T, 2); `window`: the rows of these, an even one and how many, and
+    which of the spans; and where the first pixel of touched[0] lies in `out`, row and column, outside of it perhaps.
+    The value of that pixel would lie at `start`, and what it is expanded from after `corner`.  `row`, int32 (2w,), is
+    written over.
+    """
     (line, column), (top, left) = start, corner
     touched, spans = marks
+    begin, height, tile, down, right = window
     bits, changed = np.int32(0), np.int32(0)
     for c in range(out.shape[0]):
-        for y in range(touched.shape[0]):
-            first, last = spans[y, 0], spans[y, 1]
+        for y in range(begin, begin + height):
+            first, last = spans[y, tile, 0], spans[y, tile, 1]
             if first >= last:
                 continue
             v, k = value[c, line + y][column + first : column + last], touched[y][first:last]
-            o, r = out[c, at[0] + y][at[1] + first : at[1] + last], row[first:last]
+            o, r = out[c, down + y][right + first : right + last], row[: last - first]
             _count_row(v, coarse, planes[c], top + 1 + y // 2, 2 * (y & 1) - 1, left + first // 2, r, step)
             for i in range(r.size):
                 old = np.int32(o[i])
@@ -192,22 +199,62 @@ def _span(rows: np.ndarray, columns: np.ndarray) -> tuple[int, int, int, int, in
 
 
 @or_plain(plainly.edges)
-@kernel
-def edges(data: np.ndarray, used: np.ndarray) -> tuple[int, int, int, int, int]:
-    """As `extent`, of int16 (C, h, w)."""
-    columns, rows = np.zeros(data.shape[2], np.int16), np.zeros(data.shape[1], np.int32)
+@uncounted
+def edges(data: np.ndarray, used: np.ndarray, columns: np.ndarray) -> Span:
+    """As `extent`, of int16 (C, h, w), but that all bits are 1 where there are any: not all of what fills its rectangle
+    is gone through.  `columns`, int16 (w,), is written over."""
+    y0, y1 = 0, data.shape[1]
+    while y0 < y1 and not _in_row(data, y0):
+        y0 += 1
+    while y0 < y1 and not _in_row(data, y1 - 1):
+        y1 -= 1
     for c in range(data.shape[0]):
-        found = np.int32(0)
-        for y in range(data.shape[1]):
+        used[c], y = 0, y0
+        while y < y1 and not used[c]:
+            used[c] = _any(data[c, y])
+            y += 1
+    width = data.shape[2]
+    if y0 == y1:
+        return 0, y1, 0, width, 0
+    if _in_column(data, 0) and _in_column(data, width - 1):
+        return 1, y0, y1, 0, width
+    columns[:] = 0
+    for c in range(data.shape[0]):
+        for y in range(y0, y1):
             row = data[c, y]
-            bits = np.int16(0)
-            for i in range(row.size):
+            for i in range(width):
                 columns[i] |= row[i]
-                bits |= row[i]
-            rows[y] |= np.int32(bits) & 0xFFFF
-            found |= np.int32(bits) & 0xFFFF
-        used[c] = found
-    wide = np.empty(columns.size, np.int32)
-    for x in range(wide.size):
-        wide[x] = np.int32(columns[x]) & 0xFFFF
-    return _span(rows, wide)
+    x0, x1 = 0, width
+    while not columns[x0]:
+        x0 += 1
+    while not columns[x1 - 1]:
+        x1 -= 1
+    return 1, y0, y1, x0, x1
+
+
+@inner_uncounted
+def _any(row: np.ndarray) -> int:
+    """Tells whether any of a row is not zero: 0 or 1."""
+    bits = np.int16(0)
+    for i in range(row.size):
+        bits |= row[i]
+    return 1 if bits else 0
+
+
+@inner_uncounted
+def _in_row(data: np.ndarray, y: int) -> bool:
+    """Tells whether anything in a row of planes is not zero."""
+    c = 0
+    while c < data.shape[0] and not _any(data[c, y]):
+        c += 1
+    return c < data.shape[0]  # type: ignore[no-any-return]
+
+
+@inner_uncounted
+def _in_column(data: np.ndarray, x: int) -> bool:
+    """Tells whether anything in a column of planes is not zero."""
+    for c in range(data.shape[0]):
+        for y in range(data.shape[1]):
+            if data[c, y, x]:
+                return True
+    return False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.canvas.plain import Corner
+from engine.canvas.plain import Corner, Window
 from engine.canvas.rising.spans import Found, Marks, Span, span, within
 from engine.numeric.kernel import Array
 from engine.numeric.pyramid import expanded_rows
@@ -57,27 +57,36 @@ def crop(data: Array, spans: Array, planes: Array, corner: Corner, out: Array) -
 
 
 def renew(
-    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, row: Array, at: Corner,
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, window: Window, row: Array,
     out: Array, step: np.float32,
 ) -> tuple[bool, int]:  # fmt: skip
     """Does what the kernel of that name in `counting` does."""
-    (line, column), (top, left) = start, corner
-    height, width = marks[0].shape
-    there = value[:, line : line + height, column : column + width]
-    part = out[:, at[0] : at[0] + height, at[1] : at[1] + width]
+    (line, column), (top, left), (begin, height, tile, down, right) = start, corner, window
+    spans = marks[1][begin : begin + height, tile]
+    filled = spans[spans[:, 0] < spans[:, 1]]
+    if not len(filled):
+        return False, 0
+    first, last = int(filled[:, 0].min()), int(filled[:, 1].max())
+    rows, columns = slice(begin, begin + height), slice(first, last)
+    touched = marks[0][rows, columns] != 0
+    there = value[:, line + begin : line + begin + height, column + first : column + last]
+    part = out[:, down + begin : down + begin + height, right + first : right + last]
     bits, changed = 0, False
     for c, source in enumerate(planes.tolist()):
-        predicted = expanded_rows(coarse, top, left, source, 0, height, width, step) if source >= 0 else _ZERO
-        new = np.where(marks[0] != 0, _counted(there[c], predicted, step), part[c])
+        at = top + begin // 2, left + first // 2
+        predicted = expanded_rows(coarse, *at, source, 0, height, last - first, step) if source >= 0 else _ZERO
+        new = np.where(touched, _counted(there[c], predicted, step), part[c])
         changed |= bool((new != part[c]).any())
-        bits |= int(np.bitwise_or.reduce(np.abs(new), axis=None, initial=0))
+        bits |= int(np.bitwise_or.reduce(np.abs(new[touched]), axis=None, initial=0))
         part[c] = new.astype(np.int16)
     return changed, bits
 
 
-def edges(data: np.ndarray, used: np.ndarray) -> Span:
+def edges(data: np.ndarray, used: np.ndarray, columns: np.ndarray) -> Span:
     """Does what the kernel of that name in `counting` does."""
-    return extent(data.astype(np.int32) & 0xFFFF, used)
+    there = data != 0
+    used[...] = there.any(axis=(1, 2))
+    return span(there.any(axis=(0, 2)).astype(np.int32), there.any(axis=(0, 1)).astype(np.int32))
 
 
 def extent(data: np.ndarray, used: np.ndarray) -> Span:

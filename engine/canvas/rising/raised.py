@@ -6,6 +6,7 @@ above.
 
 from __future__ import annotations
 
+import threading
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,8 +15,7 @@ from typing import Protocol
 import numpy as np
 
 from engine.canvas.rising import lifting
-from engine.canvas.rising.spans import Marks
-from engine.canvas.store import Change
+from engine.canvas.store import Change, Pyramid
 from engine.numeric.address import Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, plane_map, widened
 
@@ -23,8 +23,8 @@ MOST = 256  # commits that are looked through: a tile is sooner made again than 
 _OVERHEAD = 2000  # bytes of a commit's own objects, roughly
 
 
-class RaisedPatch(Protocol):
-    """What a commit made of a tile: `engine.canvas.front.Patch`."""
+class PaintedTile(Protocol):
+    """What a commit made of a tile of its own level: `engine.canvas.front.Patch`."""
 
     @property
     def key(self) -> TileKey:
@@ -32,24 +32,77 @@ class RaisedPatch(Protocol):
         ...
 
     @property
-    def at(self) -> Rect:
-        """Gives the rectangle that the arrays cover."""
-        ...
-
-    @property
     def dirty(self) -> Rect:
-        """Gives the one that holds all that changed."""
+        """Gives the rectangle that holds all that changed."""
+        ...
+
+
+class OfLevel(Protocol):
+    """What lies in a rectangle of a level."""
+
+    @property
+    def level(self) -> int:
+        """Gives the level."""
         ...
 
     @property
-    def new(self) -> Planes:
+    def rect(self) -> Rect:
+        """Gives the rectangle that the values cover."""
+        ...
+
+
+class RisenLevel(OfLevel, Protocol):
+    """What a commit made of a coarser level: `engine.canvas.rising.risen.Risen`."""
+
+    @property
+    def planes(self) -> Planes:
         """Gives the new values."""
         ...
 
-    @property
-    def marks(self) -> Marks:
-        """Gives where they changed, and the columns of each row."""
+    def written(self) -> Sequence[tuple[TileKey, Rect, np.ndarray]]:
+        """Returns the tiles in which they changed, the rectangle of that, and the columns of each of its rows."""
         ...
+
+
+class AroundChange(OfLevel, Protocol):
+    """Values of a level around a change: `engine.canvas.front.Around`."""
+
+    @property
+    def planes(self) -> Planes | None:
+        """Gives the values; None where nothing lies."""
+        ...
+
+
+class Front:
+    """The values of the levels around the newest commit, for the next one, which most often lies there, too; bounded by
+    bytes.  Safe for several threads."""
+
+    def __init__(self, most: int) -> None:
+        self._most, self._lock, self.held = most, threading.Lock(), 0
+        self._state: tuple[int, Change | None] | None = None
+        self._around: Sequence[AroundChange] = ()
+
+    def keep(self, pyramid: Pyramid, around: Sequence[AroundChange]) -> None:
+        """Keeps the values as they are in the state that a commit led to, in place of others; the next commit writes to
+        them."""
+        size = sum(level.planes.data.nbytes for level in around if level.planes is not None)
+        state = (pyramid.uid, pyramid.last), around, size
+        with self._lock:
+            self._state, self._around, self.held = state if size <= self._most else (None, (), 0)
+
+    def taken(self, pyramid: Pyramid) -> Sequence[AroundChange]:
+        """Gives them away, where the commit led to this state: none else."""
+        with self._lock:
+            state = self._state
+            if state is None or state[0] != pyramid.uid or state[1] is not pyramid.last:
+                return ()
+            found, self._state, self._around, self.held = self._around, None, (), 0
+            return found
+
+    def clear(self) -> None:
+        """Forgets them."""
+        with self._lock:
+            self._state, self._around, self.held = None, (), 0
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -61,11 +114,13 @@ class NewValues:
     spans: np.ndarray
 
     @classmethod
-    def of(cls, patch: RaisedPatch) -> NewValues:
-        """Takes what changed of a patch."""
-        rows, columns = patch.dirty.slices(patch.at)
-        spans = patch.marks[1][rows] - np.int32(columns.start)
-        return cls(patch.dirty, Planes(patch.new.data[:, rows, columns].copy(), patch.new.inks), spans)
+    def of(cls, risen: RisenLevel) -> list[NewValues]:
+        """Takes what changed of a level."""
+        found, planes = [], risen.planes
+        for _, at, spans in risen.written():
+            rows, columns = at.slices(risen.rect)
+            found.append(cls(at, Planes(planes.data[:, rows, columns].copy(), planes.inks), spans))
+        return found
 
     @property
     def nbytes(self) -> int:
@@ -94,12 +149,9 @@ class _Made:
     coarser: Mapping[int, Sequence[NewValues]]
 
     @classmethod
-    def of(cls, level: int, patches: Sequence[RaisedPatch]) -> _Made:
-        coarser: dict[int, list[NewValues]] = {}
-        for patch in patches:
-            if patch.key.level < level:
-                coarser.setdefault(patch.key.level, []).append(NewValues.of(patch))
-        return cls({(patch.key.x, patch.key.y): patch.dirty for patch in patches if patch.key.level == level}, coarser)
+    def of(cls, painted: Sequence[PaintedTile], risen: Sequence[RisenLevel]) -> _Made:
+        own = {(patch.key.x, patch.key.y): patch.dirty for patch in painted}
+        return cls(own, {level.level: NewValues.of(level) for level in risen})
 
     def meets(self, rect: Rect) -> bool:
         """Tells whether its own level changed in a rectangle."""
@@ -119,11 +171,12 @@ class Raised:
         self._most, self.held = most, 0
         self._made: OrderedDict[Change, _Made] = OrderedDict()
 
-    def note(self, change: Change, patches: Sequence[RaisedPatch]) -> None:
-        """Keeps what a commit made: all patches, of its own level and of the coarser ones."""
-        if sum(patch.new.data.nbytes for patch in patches if patch.key.level < change.level) > self._most:
+    def note(self, change: Change, painted: Sequence[PaintedTile], risen: Sequence[RisenLevel]) -> None:
+        """Keeps what a commit made of the tiles of its own level and of the coarser ones."""
+        size = sum(4 * len(level.planes.data) * at.area for level in risen for _, at, _ in level.written())
+        if size > self._most:
             return
-        made = self._made[change] = _Made.of(change.level, patches)
+        made = self._made[change] = _Made.of(painted, risen)
         self.held += made.nbytes
         while self.held > self._most:
             self.held -= self._made.popitem(last=False)[1].nbytes

@@ -9,8 +9,12 @@ from engine.numeric.kernel import Array, inner_uncounted
 Span = tuple[int, int, int, int, int]
 Extent = tuple[int, int, int, int]
 Marks = tuple[Array, Array]  # uint8 (h, w), and int32 (h, 2): the columns of each row outside which none is marked
-Lowered = tuple[Array, Array, Array, Array]  # means (2, C, h, w), A and what is marked (h, w), and spans (h, 2)
+Means = tuple[Array, tuple[int, int]]  # (2, C, h, w), and where in the level its first pixel lies
+Lowered = tuple[Array, Array, Array]  # A and what is marked (h, w), and spans (h, S, 2) in strips of it
+Spare = tuple[Array, Array]  # float32 (2, C, n) and uint8 (n,)
 Found = tuple[Array, Array, Array]  # int32: bits of each plane, row and column
+NO_COLUMNS = 1 << 30, 0  # columns of a row in which nothing lies
+STRIP_WIDTH = 64  # columns of a level that have spans of their own: those above one tile of the next finer level
 
 
 @inner_uncounted

@@ -272,8 +272,10 @@ def test_materialised_and_folded_records_change_nothing():
     assert all((around(folded, k) == v).all() for k, v in wanted.items())
 
 
-@pytest.mark.parametrize(("limit", "inks"), [(1 << 26, 0), (1 << 18, 0), (1 << 24, 3), (1 << 20, 5)])
-def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts(limit, inks, monkeypatch):
+@pytest.mark.parametrize(
+    ("limit", "inks", "spares"), [(1 << 26, 0, False), (1 << 18, 0, True), (1 << 24, 3, True), (1 << 20, 5, False)]
+)
+def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts(limit, inks, spares, monkeypatch):
     """Large edits are worked on in squares, very large ones in squares of squares, smaller ones where much ink lies;
     the pixels are those of one edit done at once."""
     rng = np.random.default_rng(8)
@@ -284,7 +286,7 @@ def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts(limit, inks, m
         alpha[y : y + h, x : x + w] = np.rint(rng.random() * COUNT) / COUNT
     add = np.rint(alpha * np.array([0.3, 0.9, 0.5, 1.0], np.float32)[:, None, None] * COUNT).astype(np.float32) / COUNT
     base = painted(9, inks=tuple(Grain(0, seed) for seed in range(inks)))
-    edit = ArrayEdit(2, -1111, -903, 1 - alpha, add)
+    edit = ArrayEdit(2, -1111, -903, 1 - alpha, add, spares_alpha=spares)
     monkeypatch.setattr("engine.canvas.commit._AT_ONCE", limit)
     by_slabs = commit(base, edit)
     monkeypatch.setattr("engine.canvas.commit._AT_ONCE", 1 << 40)
@@ -303,7 +305,7 @@ def test_the_less_room_there_is_the_smaller_are_the_rectangles_of_an_edit(budget
     class Seen(Exception):
         pass
 
-    def climbs(pyramid, level, rect, cache):
+    def climbs(pyramid, level, rect, cache, known=None):
         areas.append(rect.area)
         raise Seen
 
@@ -351,9 +353,9 @@ def test_a_thin_stroke_across_a_wide_canvas_takes_memory_for_the_stroke_alone(mo
 
     areas = []
 
-    def climbs(pyramid, level, rect, cache):
+    def climbs(pyramid, level, rect, cache, known=None):
         areas.append(rect.area)
-        return plain(pyramid, level, rect, cache)
+        return plain(pyramid, level, rect, cache, known)
 
     plain = module.climbs
     monkeypatch.setattr(module, "climbs", climbs)

@@ -7,7 +7,7 @@ from engine.canvas import kernels
 from engine.canvas.compact import blank_found, compact, trimmed
 from engine.canvas.dither import NO_DITHER
 from engine.canvas.front import blank_marks
-from engine.canvas.rising import counting, lifting
+from engine.canvas.rising import counting, lifting, spreading
 from engine.canvas.rising.spans import spans_of, within
 from engine.numeric.address import Rect
 from engine.numeric.grid import FINE_STEP
@@ -116,6 +116,16 @@ def scattered(rng, *shape):
     return marked
 
 
+def in_larger(touched):
+    """Marks of a tile as a part of those of a level, two pixels down and four to the right."""
+    height, width = touched.shape
+    marks, spans = np.zeros((height + 3, width + 6), np.uint8), np.zeros((height + 3, 3, 2), np.int32)
+    marks[2:-1, 4:-2] = touched
+    spans[2:-1, 1] = even_spans(touched) + 4
+    spans[:, 2] = width, width + 6
+    return marks, spans
+
+
 @pytest.mark.parametrize("kernel", both(counting.renew))
 @pytest.mark.parametrize("largest", [0.2, 3.0])
 def test_a_renewed_residual_is_what_is_left_of_the_values(kernel, largest):
@@ -124,8 +134,8 @@ def test_a_renewed_residual_is_what_is_left_of_the_values(kernel, largest):
     touched, planes = scattered(rng, 10, 26), np.array([0, 1, 2, 3, -1, 5, 4])
     before = rng.integers(-32767, 32768, (7, 12, 28)).astype(np.int16)
     data, row = before.copy(), np.empty(26, np.int32)
-    marks = touched, even_spans(touched)
-    changed, bits = kernel(value, (2, 3), coarse, (2, 3), planes, marks, row, (1, 2), data, FINE_STEP)
+    marks, part = in_larger(touched), (2, 10, 1, -1, -2)
+    changed, bits = kernel(value, (0, -1), coarse, (1, 1), planes, marks, part, row, data, FINE_STEP)
 
     window = np.stack([coarse[p] if p >= 0 else np.zeros_like(coarse[0]) for p in planes])[:, 2:9, 3:18]
     new = np.rint((value[:, 2:12, 3:29] - expand(window)) * 65536).astype(np.int32)
@@ -135,17 +145,20 @@ def test_a_renewed_residual_is_what_is_left_of_the_values(kernel, largest):
     assert (bits < 1 << 15) == (abs(wanted).max() < 1 << 15) == (largest < 1.0)
     if largest < 1.0:
         assert np.array_equal(data, wanted)
-        assert not kernel(value, (2, 3), coarse, (2, 3), planes, marks, row, (1, 2), data, FINE_STEP)[0]
+        assert not kernel(value, (0, -1), coarse, (1, 1), planes, marks, part, row, data, FINE_STEP)[0]
 
 
 @pytest.mark.parametrize("kernel", both(counting.edges))
 def test_the_edges_of_small_integers_are_those_of_large_ones(kernel):
     data = np.zeros((7, 9, 11), np.int16)
     used, wanted = np.empty((2, 7), np.int32)
-    assert kernel(data, used)[0] == 0
+    columns = np.empty(11, np.int16)
+    assert kernel(data, used, columns)[0] == 0
     data[1, 3, 4], data[5, 6, 2] = -32767, 1
-    assert kernel(data, used)[1:] == counting.extent(data.astype(np.int32), wanted)[1:] == (3, 7, 2, 5)
-    assert (used != 0).tolist() == (wanted != 0).tolist()
+    assert kernel(data, used, columns)[1:] == counting.extent(data.astype(np.int32), wanted)[1:] == (3, 7, 2, 5)
+    assert used.tolist() == (wanted != 0).tolist()
+    full = np.ascontiguousarray(data[:, 3:7, 2:5])
+    assert kernel(full, used, columns)[1:] == (0, 4, 0, 3)
     record = trimmed(Rect(8, 16, 19, 25), data, (), 3)
     assert record.rect == Rect(10, 19, 13, 23)
     assert np.array_equal(record.data, data[:, 3:7, 2:5])
@@ -161,52 +174,82 @@ def test_what_lies_off_the_spans_counts_for_nothing(kernel):
     assert np.array_equal(out, wanted)
 
 
-@pytest.mark.parametrize("kernel", both(lifting.spread))
+@pytest.mark.parametrize("kernel", both(spreading.spread))
 def test_children_of_what_moved_are_touched(kernel):
     rng = np.random.default_rng(6)
-    moved, out = 2 * scattered(rng, 12, 16), scattered(rng, 16, 20)
-    wanted, spans = out.copy(), np.empty((16, 2), np.int32)
+    moved, out = 2 * scattered(rng, 12, 140), scattered(rng, 16, 200)
+    parents = moved, np.stack([spans_of(moved[:, :70]), spans_of(moved[:, 70:]) + 70], axis=1)
+    spans = np.stack([spans_of(out[:, :28]), spans_of(out[:, 28:156]) + 28, spans_of(out[:, 156:]) + 156], axis=1)
+    wanted = out.copy()
     for y in range(16):
-        for x in range(20):
+        for x in range(200):
             j, i = 2 + y // 2, 3 + x // 2
             there = moved[np.ix_([j, j + 2 * (y % 2) - 1], [i, i + 2 * (x % 2) - 1])]
             wanted[y, x] |= there.max()
-    assert kernel(moved, 1, 2, out, spans) == wanted.any()
+    kernel(parents, (1, 2), (out, spans), 100)
     assert np.array_equal(out, wanted)
-    assert np.array_equal(spans[out.any(axis=1)], even_spans(wanted)[out.any(axis=1)])
-    assert (spans[~out.any(axis=1)] == [20, 0]).all()
+    for tile, (first, last) in enumerate([(0, 28), (28, 156), (156, 200)]):
+        some = wanted[:, first:last].any(axis=1)
+        assert np.array_equal(spans[some, tile], even_spans(wanted[:, first:last])[some] + first)
+        assert not spans[~some, tile].any()
 
 
-def lowered(rng, planes, height, width):
-    """What `lower` writes into: marked nowhere, any values."""
-    spans = np.full((height, 2), (1 << 30, 0), np.int32)
-    return (
-        on_grid(rng, 2, planes, height, width),
-        on_grid(rng, height, width),
-        np.zeros((height, width), np.uint8),
-        spans,
-    )
+@pytest.mark.parametrize("kernel", both(spreading.boxes))
+def test_extents_are_told_tile_by_tile(kernel):
+    spans = np.zeros((40, 2, 2), np.int32)
+    spans[[3, 9, 30], 0], spans[9, 1] = [(4, 8), (2, 5), (6, 7)], (60, 61)
+    found = np.full((2, 2, 4), -1, np.int32)
+    kernel(spans, 128 - 20, found)
+    assert found.tolist() == [[[3, 10, 2, 8], [9, 10, 60, 61]], [[30, 31, 6, 7], [0, 0, 0, 0]]]
+
+
+def level_of(rng, height, width, strips):
+    """A level that nothing changed yet, with any A."""
+    spans = np.full((height, strips, 2), (1 << 30, 0), np.int32)
+    return on_grid(rng, height, width), np.zeros((height, width), np.uint8), spans
+
+
+def lifted(which, spares):
+    """What two patches beside one another make of two levels above, one of them blank before."""
+    rng = np.random.default_rng(8)
+    here, above = level_of(rng, 16, 26, 2), level_of(rng, 12, 18, 1)
+    values, coarser = abs(on_grid(rng, 7, 16, 26)), on_grid(rng, 2, 7, 12, 18)
+    spare, means, seen = (np.empty((2, 7, 64), np.float32), np.empty(64, np.uint8)), on_grid(rng, 2, 7, 12, 12), []
+    blank = np.full(7, -1), np.array([0, 1, 2, 3, -1, 4, 5])
+    for strip, maps in ((0, blank), (1, (np.arange(7), np.arange(7)))):
+        marked = scattered(rng, 24, 24)
+        old, new, keep = on_grid(rng, 7, 24, 24), on_grid(rng, 7, 24, 24), on_grid(rng, 24, 24)
+        left = 2 + 11 * strip
+        lower, within = which(lifting.lower), (means, (2, left & ~1))
+        lower((old, new), maps, keep, (marked, spans_of(marked)), (2, 2, 11, 3, left, strip), within, here, FINE_STEP)
+        window, onto = (2, 14, strip, strip + 1, 2, 3, 0, 0), (coarser, (0, 0))
+        arguments = within, here, values, window, onto, above, spare, spares, FINE_STEP, NO_DITHER
+        seen.append(which(lifting.climb)(*arguments))
+    return [*seen, values, *settled(here), *settled(above), coarser[:, :, above[1] != 0]]
+
+
+def settled(level):
+    """Of a level, A where anything is marked, the marks, and the columns."""
+    return level[0][level[1] != 0], level[1], level[2]
 
 
 @pytest.mark.parametrize("spares", [False, True])
 def test_compiled_and_plain_lifts_agree(spares):
-    """Of two neighbours, one blank before; where anything is marked, and at the pixels beside it."""
-    seen = []
-    for which in (lambda kernel: kernel.compiled, lambda kernel: kernel.plain):
-        rng = np.random.default_rng(8)
-        into = lowered(rng, 7, 12, 20)
-        for left, maps in ((0, (np.full(7, -1), np.array([0, 1, 2, 3, -1, 4, 5]))), (8, (np.arange(7), np.arange(7)))):
-            marked = scattered(rng, 24, 24)
-            old, new, keep = on_grid(rng, 7, 24, 24), on_grid(rng, 7, 24, 24), on_grid(rng, 24, 24)
-            window = 2, 2, 11, 10, 1, left + 1
-            which(lifting.lower)((old, new), maps, keep, (marked, spans_of(marked)), window, into, FINE_STEP)
-        around, values, marks = abs(on_grid(rng, 7, 15, 25)), np.zeros((2, 7, 12, 20), np.float32), blank_marks(12, 20)
-        extent = which(lifting.climb)(into, spares, around, (2, 3), values, marks, FINE_STEP, NO_DITHER)
-        inside = within(marks[1], 20)
-        assert np.array_equal(inside & (marks[0] != 0), marks[0] != 0)
-        out = np.zeros((7, 14, 22), np.float32)
-        which(lifting.place_changed)(values[1], np.arange(7), marks[1], out, 1, 2)
-        seen.append([extent, values[:, :, inside], into[1][inside], into[2], into[3], *marks, out])
+    """Where anything is marked, and at the pixels beside it."""
+    seen = [lifted(which, spares) for which in (lambda kernel: kernel.compiled, lambda kernel: kernel.plain)]
     for one, other in zip(*seen, strict=True):
         assert np.array_equal(one, other)
-    assert 0 < seen[0][0][1] <= 12
+    assert min(seen[0][:2]) > 0
+    assert seen[0][4].any()
+    assert seen[0][7].any()
+
+
+@pytest.mark.parametrize("kernel", both(lifting.place_changed))
+def test_what_changed_is_put_in_its_place(kernel):
+    rng = np.random.default_rng(9)
+    values, marked, out = on_grid(rng, 5, 9, 12), scattered(rng, 9, 12), on_grid(rng, 4, 14, 22)
+    wanted = out.copy()
+    inside = within(spans_of(marked), 12)
+    wanted[:, 1:10, 2:14][:, inside] = np.stack([values[0], values[2], np.zeros_like(values[0]), values[4]])[:, inside]
+    kernel(values, np.array([0, 2, -1, 4]), spans_of(marked), out, 1, 2)
+    assert np.array_equal(out, wanted)

@@ -63,7 +63,7 @@ def test_plain_strokes_are_the_same_bits(request):
     plain = painted()
     assert {"walk_points", "as_discs", "list_pairs", "_join", "lay_flat", "lay"} <= called
     assert {"keep_of", "apply_stamp", "place", "expand_into"} <= called
-    assert {"climb", "lower", "spread", "place_changed", "renew", "edges"} <= called
+    assert {"climb", "lower", "spread", "boxes", "renew", "edges"} <= called
     for one, other in zip(compiled, plain, strict=True):
         assert one.dtype == other.dtype
         assert np.array_equal(one, other)

@@ -118,3 +118,39 @@ def test_what_a_commit_makes_of_coarser_levels_is_not_evaluated_again(monkeypatc
     monkeypatch.setattr("engine.canvas.evaluate.step", None)
     for key, pixels in zip(tiles, wanted, strict=True):
         assert np.array_equal(evaluate(after, key.level, key.rect, cache).rgba, pixels)
+
+
+def stored(pyramid):
+    """All records, as values."""
+    return [(key, record.rect, record.inks, record.data.tolist()) for key, record in pyramid.all_records()]
+
+
+def test_what_a_commit_leaves_of_the_levels_above_serves_the_next_one():
+    """Where that lies within its bounds, and only in the state that it led to."""
+    rng, cache, pyramid = np.random.default_rng(7), TileCache(64 << 20), painted(3)
+    first = ArrayEdit(0, -90, -70, *(np.full(size, 0.5, np.float32) for size in ((200, 260), (4, 200, 260))))
+    pyramid = commit(pyramid, first, cache)
+    other = commit(pyramid, edit(rng))
+    taken = 0
+    for _ in range(6):
+        known, one = cache.front.taken(pyramid), edit(rng)
+        cache.front.keep(pyramid, known)
+        assert not cache.front.taken(other)
+        taken += len(known) > 0
+        wanted = commit(pyramid, one)
+        pyramid = commit(pyramid, one, cache)
+        assert stored(pyramid) == stored(wanted)
+    assert taken == 6
+
+
+def test_the_levels_around_a_commit_count_and_are_let_go():
+    cache = TileCache(64 << 20)
+    pyramid = commit(Pyramid(), edit(np.random.default_rng(8)), cache)
+    held = cache.held
+    assert cache.front.taken(pyramid)
+    assert cache.held < held
+    small = TileCache(1000)
+    assert not small.front.taken(commit(Pyramid(), edit(np.random.default_rng(8)), small))
+    commit(pyramid, edit(np.random.default_rng(9)), cache)
+    cache.shrink(0)
+    assert cache.held == 0
