@@ -12,6 +12,7 @@ from imgui_bundle import imgui
 from app.actions.action import Action
 from app.actions.actions import ACTIONS, by_key, perform
 from app.desk.desk import Desk
+from app.desk.preferring.feeling import felt
 from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord, pointer_chord
 from app.panels.controls.fields_in_sight import field_in_sight
@@ -51,8 +52,12 @@ class Router:
         self._field_until, self._field_frames = 0.0, 0
 
     def pointer(self, event: PenEvent) -> None:
-        """Takes one pointer event."""
-        desk = self.desk
+        """Takes one pointer event, as the artist prefers it to be felt."""
+        desk, told = self.desk, felt(event, self.desk.preferred.now)
+        if told is None:
+            return
+        desk.pointer.pressed, event = event.pressure, told
+        desk.pointer.pressure = event.pressure
         desk.pointer.x, desk.pointer.y, desk.pointer.pen = event.x, event.y, event.pen
         desk.pointer.eraser = event.eraser
         if self.gesture is not None:

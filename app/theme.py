@@ -74,9 +74,12 @@ def load_fonts(io: Any) -> None:
     io.fonts.add_font_from_file_ttf(str(FONTS / "Font_Awesome_6_Free-Solid-900.otf"), FONT_SIZE * 0.87, icons)
 
 
-def apply(scale: float) -> None:
-    """Colours and metrics for a screen of `scale` pixels per point."""
-    style = imgui.get_style()
+def apply(scale: float, font_size: float = FONT_SIZE) -> None:
+    """Colours and metrics for a screen of `scale` pixels per point; may be called again."""
+    style, usual = imgui.get_style(), imgui.Style()
+    for name in dir(usual):  # what is not said below would be scaled once more
+        if not name.startswith(("_", "font")) and isinstance(getattr(usual, name), int | float | ImVec2):
+            setattr(style, name, getattr(usual, name))
     for name, (colour, alpha) in _COLOURS.items():
         style.set_color_(getattr(imgui.Col_, name), vec(colour, alpha))
     style.window_padding = ImVec2(10, 8)
@@ -96,4 +99,4 @@ def apply(scale: float) -> None:
     style.popup_border_size = 1
     style.hover_stationary_delay = 0.25
     style.scale_all_sizes(scale)
-    style.font_scale_dpi = scale
+    style.font_scale_dpi, style.font_scale_main = scale, font_size / FONT_SIZE

@@ -33,6 +33,7 @@ from app.desk.keys.kept_keys import kept_keys_file, read_keys
 from app.desk.moving import floating, held_box
 from app.desk.outside import bringing
 from app.desk.places import going
+from app.desk.preferring.preferred import Preferred
 from app.desk.previews import Previews
 from app.desk.recovery.engine_thread import EngineThread, Start
 from app.desk.recovery.recovery_work import FindCards
@@ -57,6 +58,7 @@ from app.router import Router
 from app.solid_view import SolidView
 from app.trace import trace_rest, trace_typing
 from app.wanted_tiles import Tiles
+from engine.keeping.preferences import Preferences, preferences_file, read_preferences
 from engine.studio import results
 from engine.studio.selecting.ants_records import Ants
 from engine.studio.selecting.tint_records import Tint
@@ -78,6 +80,25 @@ def _resize(desk: Desk, ctx: moderngl.Context, width: int, height: int) -> None:
         ctx.viewport = (0, 0, width, height)
 
 
+def _look(screen: float, preferences: Preferences) -> tuple[float, float]:
+    """Gives all beside the canvas the preferred sizes on a screen of so many pixels per point; pixels per point then,
+    and the font's size."""
+    look = screen * preferences.scale, preferences.font_size
+    theme.apply(*look)
+    return look
+
+
+def _lay_kept(desk: Desk) -> tuple[str, ...]:
+    """Lays on the desk what was kept of the last session, and has keys and folds be as they were; a line for each file
+    that is at fault."""
+    kept, fault = read_window(kept_window_file())
+    restore_window(desk, kept)
+    desk.keys.bound, keys_fault = read_keys(kept_keys_file())
+    lay_keys(desk.keys.bound)
+    keep_folds_in(desk.remembered.folded)
+    return tuple(one for one in (fault, keys_fault) if one)
+
+
 _ANTS: dict[type, Hear] = {Ants: _ants}
 
 
@@ -93,19 +114,16 @@ class Window:
         io.set_ini_filename("")
         io.config_flags |= imgui.ConfigFlags_.no_mouse_cursor_change
         io.mouse_double_click_time, io.mouse_single_click_delay = DOUBLE, 1.1 * DOUBLE
-        scale = max(0.75, glfw.get_window_content_scale(handle)[0])
+        self._screen_scale = scale = max(0.75, glfw.get_window_content_scale(handle)[0])
         theme.load_fonts(io)
-        theme.apply(scale)
+        preferences = read_preferences(preferences_file())[0]  # the engine tells what is wrong with them
+        self._look = _look(scale, preferences)
         width, height = glfw.get_framebuffer_size(handle)
-        self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, scale)
+        self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, self._look[0])
+        self.desk.preferred = Preferred(preferences, preferences)
         self.desk.graphics = f"{self.ctx.info['GL_RENDERER']}, {self.ctx.info['GL_VERSION']}"
         self._guard = FaultGuard(lambda: self.desk.told(_FAULT))
-        kept, fault = read_window(kept_window_file())
-        restore_window(self.desk, kept)
-        self.desk.keys.bound, keys_fault = read_keys(kept_keys_file())
-        lay_keys(self.desk.keys.bound)
-        keep_folds_in(self.desk.remembered.folded)
-        self._faults = tuple(one for one in (fault, keys_fault) if one)
+        self._faults = _lay_kept(self.desk)
         self._remembering, self._views = Remembering(partial(box_of_window, handle, scale)), ViewsWatched()
         self.layout = Layout(self._guard)
         self.router = Router(self.desk, self.layout)
@@ -229,6 +247,10 @@ class Window:
                 self.router.pointer(event)
 
     def _panels(self) -> None:
+        preferences = self.desk.preferred.now
+        if (self._screen_scale * preferences.scale, preferences.font_size) != self._look:
+            self._look = _look(self._screen_scale, preferences)
+            self.desk.scale = self._look[0]
         backends.opengl3_new_frame()
         backends.glfw_new_frame()
         imgui.new_frame()

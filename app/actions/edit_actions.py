@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.actions.action import Action as A
-from app.actions.action import paint_chosen, ready, to_now
+from app.actions.action import asks, paint_chosen, ready, to_now
 from app.desk.desk import Desk
 from app.desk.guides import symmetry
 from app.desk.hand import BLACK, WHITE
@@ -71,4 +71,5 @@ EDIT_ACTIONS: dict[str, A] = {
     "paste": A("Paste", "Edit", ("Ctrl+V",), "Lay what was copied last on a layer of its own", clipboard.paste, ready),
     "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
     "default": A("Black and white", "Edit", ("D",), "Set the colours to black and white", _default_colours),
+    "preferences": A("Preferences…", "Edit", ("Ctrl+,",), "Pen, display, memory and files", asks("preferences")),
 }  # fmt: skip

@@ -36,6 +36,7 @@ from app.desk.notices import Notice, Notices
 from app.desk.outside.opened_files import OpenedFiles
 from app.desk.past.past_state import PastState
 from app.desk.places.place_state import PlaceState
+from app.desk.preferring.preferred import Preferred
 from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import RecoveryState
 from app.desk.remembering.remembered import Remembered
@@ -96,13 +97,16 @@ def _no_previews(_folder: Path, _rows: Iterable[FileRow], _side: int) -> None:
 
 @dataclass(slots=True)
 class Pointer:
-    """Where the pointer is, what it is over, and which keys are held that mean something to what it drags."""
+    """Where the pointer is, what it is over, how hard a pen is `pressed` and what that is felt as, and which keys are
+    held that mean something to what it drags."""
 
     x: float = 0.0
     y: float = 0.0
     over_canvas: bool = False
     pen: bool = False
     eraser: bool = False
+    pressed: float = 0.0
+    pressure: float = 0.0
     shift: bool = False
     alt: bool = False
 
@@ -151,6 +155,7 @@ class Desk:
     moving: MoveState = field(default_factory=MoveState)
     selecting: SelectState = field(default_factory=SelectState)
     opened: OpenedFiles = field(default_factory=OpenedFiles)
+    preferred: Preferred = field(default_factory=Preferred)
     remembered: Remembered = field(default_factory=Remembered)
     start: StartState = field(default_factory=StartState)
     solid: SolidState = field(default_factory=SolidState)

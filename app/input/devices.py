@@ -31,6 +31,7 @@ class Device:
     name: str
     axes: dict[int, Axis] = field(default_factory=dict)
     last: dict[str, float] = field(default_factory=dict)
+    direct: bool = False  # fingers touch what they see
 
     @property
     def pen(self) -> bool:
@@ -46,6 +47,11 @@ class Device:
     def pad(self) -> bool:
         """Tells whether it is the buttons and rings beside a tablet, which only its name says, too."""
         return self.name.lower().endswith(" pad")
+
+    @property
+    def touch(self) -> bool:
+        """Tells whether fingers move it: a screen, or a tablet, as its name says; the pad of a laptop is a mouse."""
+        return self.direct or self.name.lower().endswith((" finger", " touch"))
 
     def take(self, values: dict[int, float]) -> None:
         """Raw valuators by number, as an event brings them."""

@@ -20,8 +20,8 @@ class PenEvent:
     pressure 0..1 (a mouse: 1 while its button is down).  Tilt in degrees, -90..90; `rotation` of
     the barrel in degrees clockwise, None where the pen does not tell it.  time: seconds of a steady clock.
     button: 1 left or tip, 2 middle, 3 right, 4 back, 5 forward, from 6 on what else there is; those beside a tablet
-    begin after PAD.  pad: the wheel is a ring beside a tablet.  eraser: the pen is held the other way round.  dx, dy:
-    notches of the wheel, up and left positive.
+    begin after PAD.  pad: the wheel is a ring beside a tablet.  touch: a finger.  eraser: the pen is held
+    the other way round.  dx, dy: notches of the wheel, up and left positive.
     """
 
     kind: str
@@ -36,6 +36,7 @@ class PenEvent:
     eraser: bool = False
     pen: bool = False
     pad: bool = False
+    touch: bool = False
     dx: float = 0.0
     dy: float = 0.0
 

@@ -22,7 +22,8 @@ from app.input.events import BACK, FORWARD, LEFT, MIDDLE, PAD, RIGHT, PenEvent
 ALL_DEVICES, ALL_MASTERS = 0, 1
 DEVICE_CHANGED, BUTTON_PRESS, BUTTON_RELEASE, MOTION, HIERARCHY_CHANGED = 1, 4, 5, 6, 11
 GENERIC_EVENT = 35
-VALUATOR_CLASS = 2
+VALUATOR_CLASS, TOUCH_CLASS = 2, 8
+DIRECT_TOUCH = 1
 FLOATING_SLAVE, MASTER_POINTER, SLAVE_POINTER = 5, 1, 3
 _BUTTONS = {1: LEFT, 2: MIDDLE, 3: RIGHT, 8: BACK, 9: FORWARD, **{i: i - 4 for i in range(10, 33)}}
 _WHEEL = {4: (0.0, 1.0), 5: (0.0, -1.0), 6: (1.0, 0.0), 7: (-1.0, 0.0)}
@@ -116,6 +117,12 @@ class ValuatorClass(ct.Structure):
     )
 
 
+class TouchClass(ct.Structure):
+    """XITouchClassInfo of XInput2.h."""
+
+    _fields_ = (("type", ct.c_int), ("sourceid", ct.c_int), ("mode", ct.c_int), ("num_touches", ct.c_int))
+
+
 class DeviceInfo(ct.Structure):
     """XIDeviceInfo of XInput2.h."""
 
@@ -154,6 +161,8 @@ def pen_event(event: DeviceEvent, device: Device | None) -> PenEvent | None:
             "eraser": device.eraser,
             "pen": True,
         }
+    elif device is not None and device.touch:
+        fields = {"touch": True}
     word = {MOTION: "move", BUTTON_PRESS: "down", BUTTON_RELEASE: "up"}.get(kind)
     if word is None:
         return None
@@ -268,6 +277,9 @@ class XInput2Pointer:
     def _device(self, info: DeviceInfo) -> Device:
         device = Device((info.name or b"").decode("utf-8", "replace"))
         for j in range(info.num_classes):
+            if info.classes[j].contents.type == TOUCH_CLASS:
+                touch = ct.cast(info.classes[j], ct.POINTER(TouchClass)).contents
+                device.direct = touch.mode == DIRECT_TOUCH
             if info.classes[j].contents.type != VALUATOR_CLASS:
                 continue
             axis = ct.cast(info.classes[j], ct.POINTER(ValuatorClass)).contents

@@ -88,7 +88,8 @@ class Layout:
         left = right = 0.0
         if desk.panels:
             height = desk.view.height - top - bottom
-            left, right = LEFT * desk.scale, RIGHT * desk.scale
+            wider = desk.scale * max(1.0, imgui.get_style().font_scale_main)
+            left, right = LEFT * wider, RIGHT * wider
             tall = min(self.strip.height(desk), 0.62 * height) if desk.strip else 0.0
             under = desk.view.width - left - right < NARROW * desk.scale  # then the strip goes below the right panel
             self._sides(desk, (top, height, height - tall if under else height), (left, right))

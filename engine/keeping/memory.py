@@ -14,7 +14,7 @@ from collections.abc import Callable
 from functools import cache
 
 from engine.files.fault import shown
-from engine.keeping.preferences import SETTINGS, preferences_file, read_preferences
+from engine.keeping.preferences import MEGABYTES, preferences_file, read_preferences
 
 VARIABLE = "INKFALL_MEMORY"  # MB
 MEGABYTE = 1 << 20
@@ -22,7 +22,6 @@ PROGRAM = 250 * MEGABYTE  # that the program itself takes, beside the budget
 _MOST = 4096 * MEGABYTE  # unless somebody says otherwise
 _LEAST = 64 * MEGABYTE  # with less, hardly anything that was worked out once is kept
 _UNKNOWN = 16384 * MEGABYTE  # of a machine that does not tell how much it has
-_ROW = SETTINGS["memory", "megabytes"]
 
 
 @cache
@@ -41,10 +40,10 @@ def told_budget(word: str | None) -> tuple[int, str]:
     nothing is."""
     fault, asked = "", read_preferences(preferences_file())[0].megabytes
     if word is not None:
-        if word.isdecimal() and len(word) < 12 and int(word) <= _ROW.high:
+        if word.isdecimal() and len(word) < 12 and int(word) <= MEGABYTES.high:
             asked = int(word)
         else:
-            fault = f"{VARIABLE}: found {shown(word)}, expected a whole number of MB from 0 to {_ROW.high:g}"
+            fault = f"{VARIABLE}: found {shown(word)}, expected a whole number of MB from 0 to {MEGABYTES.high:g}"
     fitting = min(_installed() // 4, _MOST)
     return max(asked * MEGABYTE or fitting, _LEAST), fault
 

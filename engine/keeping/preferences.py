@@ -8,6 +8,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple, TypeGuard
 
@@ -18,16 +19,28 @@ from engine.files.fault import shown, system_words
 LARGEST_FILE = 1 << 20  # bytes
 
 
+PressureKnots = tuple[tuple[float, float], ...]
+MOST_KNOTS = 64
+_STRAIGHT: PressureKnots = ((0.0, 0.0), (1.0, 1.0))  # what changes nothing
+
+
 @dataclass(frozen=True, slots=True)
 class Preferences:
     """`versions`: how many earlier versions of each saved file are kept; `gigabytes`, `part_of_free`: those of all
     files and the bin take at most so many together, and at most this part of the free disk; `megabytes` of memory that
-    paintings may take, 0 for what fits the machine."""
+    paintings may take, 0 for what fits the machine; `curve`: what pressures of a pen become, knots of 0..1, none where
+    they stay; `constant`: the pressure of every pen, 0 where it is felt; `ignore_touch`: fingers do nothing; `scale` of
+    all that the window shows beside the canvas, in that of the screen; `font_size` in points."""
 
     versions: int = 3
     gigabytes: float = 5.0
     part_of_free: float = 0.1
     megabytes: int = 0
+    curve: PressureKnots = ()
+    constant: float = 0.0
+    ignore_touch: bool = False
+    scale: float = 1.0
+    font_size: float = 15.0
 
 
 class Row(NamedTuple):
@@ -38,12 +51,64 @@ class Row(NamedTuple):
     whole: bool
     put: Callable[[Preferences, float], Preferences]
 
+    def taken(self, found: Preferences, value: object) -> Preferences | None:
+        """Returns the preferences with a value, None where that is none."""
+        good = _is_number(value, self.whole) and self.low <= value <= self.high
+        return self.put(found, value) if good and _is_number(value, self.whole) else None
 
-SETTINGS = {
+    @property
+    def expected(self) -> str:
+        """Says what the value is to be."""
+        return f"{'a whole number' if self.whole else 'a number'} from {self.low:g} to {self.high:g}"
+
+
+class Switch(NamedTuple):
+    """What one line of the file turns on or off."""
+
+    put: Callable[[Preferences, bool], Preferences]
+
+    @property
+    def expected(self) -> str:
+        """Says what the value is to be."""
+        return "true or false"
+
+    def taken(self, found: Preferences, value: object) -> Preferences | None:
+        """Returns the preferences with a value, None where that is none."""
+        return self.put(found, value) if isinstance(value, bool) else None
+
+
+class Curve(NamedTuple):
+    """What one line of the file draws: knots, whose inputs rise."""
+
+    put: Callable[[Preferences, PressureKnots], Preferences]
+
+    @property
+    def expected(self) -> str:
+        """Says what the value is to be."""
+        return f"[[in, out], ...], from 0 to 1, inputs rising, at most {MOST_KNOTS}"
+
+    def taken(self, found: Preferences, value: object) -> Preferences | None:
+        """Returns the preferences with a value, None where that is none."""
+        if not isinstance(value, list) or not 2 <= len(value) <= MOST_KNOTS:
+            return None
+        knots = [tuple(pair) for pair in value if isinstance(pair, list) and len(pair) == 2]
+        if len(knots) < len(value) or not all(_is_number(v, False) and 0 <= v <= 1 for pair in knots for v in pair):
+            return None
+        rising = all(one[0] < other[0] for one, other in pairwise(knots))
+        return self.put(found, tuple((float(a), float(b)) for a, b in knots)) if rising else None
+
+
+MEGABYTES = Row(0, 1e6, True, lambda told, number: replace(told, megabytes=int(number)))
+SETTINGS: dict[tuple[str, str], Row | Switch | Curve] = {
     ("kept", "versions"): Row(1, 100, True, lambda told, number: replace(told, versions=int(number))),
     ("kept", "gigabytes"): Row(0.0, 1e6, False, lambda told, number: replace(told, gigabytes=number)),
     ("kept", "part_of_free"): Row(0.0, 1.0, False, lambda told, number: replace(told, part_of_free=number)),
-    ("memory", "megabytes"): Row(0, 1e6, True, lambda told, number: replace(told, megabytes=int(number))),
+    ("memory", "megabytes"): MEGABYTES,
+    ("pen", "curve"): Curve(lambda told, knots: replace(told, curve=() if knots == _STRAIGHT else knots)),
+    ("pen", "constant"): Row(0.0, 1.0, False, lambda told, number: replace(told, constant=number)),
+    ("pen", "ignore_touch"): Switch(lambda told, on: replace(told, ignore_touch=on)),
+    ("display", "scale"): Row(0.75, 3.0, False, lambda told, number: replace(told, scale=number)),
+    ("display", "font_size"): Row(12.0, 20.0, False, lambda told, number: replace(told, font_size=number)),
 }
 
 
@@ -68,12 +133,11 @@ def read_preferences(path: Path) -> tuple[Preferences, tuple[str, ...]]:
         row = SETTINGS.get((table, key))
         if row is None:
             faults.append(f"{path}: [{table}] found {shown(key)}, expected one of {_names(table)}")
-        elif not _is_number(value, row.whole) or not row.low <= value <= row.high:
-            kind = "a whole number" if row.whole else "a number"
-            wanted = f"expected {kind} from {row.low:g} to {row.high:g}"
-            faults.append(f"{path}: [{table}] {key}: found {shown(value)}, {wanted}")
-        else:
-            found = row.put(found, value)
+            continue
+        taken = row.taken(found, value)
+        if taken is None:
+            faults.append(f"{path}: [{table}] {key}: found {shown(value)}, expected {row.expected}")
+        found = taken or found
     return found, tuple(faults)
 
 

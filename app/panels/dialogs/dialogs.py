@@ -24,6 +24,7 @@ from app.panels.dialogs.keys_dialog import Keys
 from app.panels.dialogs.merge_dialog import MergeDialog
 from app.panels.dialogs.overtaken import OvertakenSave
 from app.panels.dialogs.paper_choice import PaperChoice, PaperDialog
+from app.panels.dialogs.preferences_dialog import PreferencesDialog
 from app.panels.dialogs.select_dialogs import ChangeSelection, KeepSelection, KeptSelections
 from app.panels.recovery.cards import Bin, Cards
 from engine.numeric.address import Rect
@@ -272,6 +273,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "adjust": lambda desk: AdjustDialog(),
     "unclosed": Cards,
     "bin": Bin,
+    "preferences": PreferencesDialog,
     "keys": Keys,
     "keys from": file_browser.choosing_keys,
     "keys to": file_browser.writing_keys,

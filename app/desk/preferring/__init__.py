@@ -1,0 +1,1 @@
+"""The artist's preferences, as the window changes them."""

@@ -1,0 +1,178 @@
+"""The preferences: pen, display, memory and files.  What can be is in force at once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.desk.desk import Desk
+from app.desk.preferring.preferring import keep_preferences
+from app.panels.controls import widgets as w
+from app.panels.controls.curve_editor import CurveEditor
+from engine.keeping.preferences import Preferences, preferences_file
+
+_WIDE, _TALL = 30.0, 22.0  # ems of the page
+_PAGES = (
+    ("pen", "Pen", "How pens are felt, with a place to try it"),
+    ("display", "Display", "How large all beside the canvas is"),
+    ("memory", "Memory", "What paintings may take"),
+    ("files", "Files", "Earlier versions and the bin"),
+)
+_DOTS = 400  # of the test area at most
+_ROOM = 900, 560  # points of a window that panels and dialogs want
+_PERCENTS = (75, 100, 125, 150, 175, 200, 250, 300)
+_LATER = "From the next start on"
+
+
+class _Dot(NamedTuple):
+    """A place of the test area, pixels from its corner, and the pressure felt there."""
+
+    x: float
+    y: float
+    pressure: float
+
+
+class PreferencesDialog:
+    """Changes them; Escape and Close keep what was changed, Reset has a page as it comes."""
+
+    title = "Preferences"
+
+    def __init__(self, desk: Desk) -> None:
+        self._page, self._dots = "pen", list[_Dot]()
+        self._curve = CurveEditor(smooth=False)
+        self._curve.by_hand = False
+
+    def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window; False when it is done."""
+        em = imgui.get_font_size()
+        chosen = w.segments("page", self._page, _PAGES, _WIDE * em)
+        self._page = chosen or self._page
+        imgui.spacing()
+        tall = min(_TALL * em, imgui.get_main_viewport().work_size.y - 9 * em)
+        imgui.begin_child("page", ImVec2(_WIDE * em, tall))
+        {"pen": self._pen, "display": _display, "memory": _memory, "files": _files}[self._page](desk)
+        imgui.end_child()
+        if not imgui.is_mouse_down(imgui.MouseButton_.left):
+            keep_preferences(desk, desk.preferred.now)
+        closes = w.default_button("Close", "All of it is kept", width=em * 7)
+        imgui.same_line()
+        if w.text_button("Reset this page", "As they come", width=em * 9):
+            usual = Preferences()
+            _change(desk, **{name: getattr(usual, name) for name in _OF_PAGES[self._page]})
+        return not closes
+
+    def _pen(self, desk: Desk) -> None:
+        now = desk.preferred.now
+        imgui.begin_disabled(bool(now.constant))
+        hint = "What the pressure of every pen becomes, before brushes follow it"
+        changed, curve = self._curve.row("Pressure", now.curve or None, (), hint)
+        imgui.end_disabled()
+        if changed:
+            _change(desk, curve=curve if isinstance(curve, tuple) else ())
+        hint = "Each pen paints with this pressure, however hard it is pressed"
+        changed, on = w.tick("Constant pressure", bool(now.constant), hint)
+        if changed:
+            _change(desk, constant=1.0 if on else 0.0)
+        if now.constant:
+            changed, value = w.slider("How hard", now.constant, (0.05, 1.0), hint)
+            if changed:
+                _change(desk, constant=value)
+        hint = "Fingers on the screen or the tablet do nothing, as far as the system tells them from pens"
+        changed, on = w.tick("Ignore touch", now.ignore_touch, hint)
+        if changed:
+            _change(desk, ignore_touch=on)
+        imgui.spacing()
+        self._test(desk)
+
+    def _test(self, desk: Desk) -> None:
+        """Draws an area in which a pen leaves discs as wide as its pressure is felt."""
+        em, at = imgui.get_font_size(), desk.pointer
+        felt = f"Pressed {at.pressed:.2f}, felt {at.pressure:.2f}"
+        told = felt if at.pen else "No pen has come yet: a mouse presses 1"
+        imgui.text_disabled(f"Try it here.  {told}")
+        corner, size = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        imgui.invisible_button("test area", size)
+        w.named("test area")
+        w.tooltip("Draw with the pen: discs are as wide as the pressure is felt")
+        if imgui.is_item_active():
+            if imgui.is_item_activated():
+                self._dots.clear()
+            self._dots.append(_Dot(at.x - corner.x, at.y - corner.y, at.pressure if at.pen else 1.0))
+            del self._dots[:-_DOTS]
+        painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size.x, corner.y + size.y)
+        painter.add_rect_filled(corner, end, theme.packed((0.9,) * 3), imgui.get_style().frame_rounding)
+        painter.push_clip_rect(corner, end, True)
+        for dot in self._dots:
+            place = ImVec2(corner.x + dot.x, corner.y + dot.y)
+            painter.add_circle_filled(place, max(0.5, dot.pressure * em), theme.packed((0.15,) * 3), 24)
+        painter.pop_clip_rect()
+
+
+_OF_PAGES = {
+    "pen": ("curve", "constant", "ignore_touch"),
+    "display": ("scale", "font_size"),
+    "memory": ("megabytes",),
+    "files": ("versions", "gigabytes", "part_of_free"),
+}
+
+
+def _change(desk: Desk, **told: Any) -> None:
+    desk.preferred.now = replace(desk.preferred.now, **told)
+
+
+def _display(desk: Desk) -> None:
+    now, em, hint = desk.preferred.now, imgui.get_font_size(), "Of panels, buttons and texts, in that of the screen"
+    imgui.text_disabled("Size of all beside the canvas")
+    room = min(desk.view.width / _ROOM[0], desk.view.height / _ROOM[1]) * now.scale / desk.scale  # in which all fits
+    fitting = [percent for percent in _PERCENTS if percent <= max(100.0, 100 * room)]
+    sizes = [(f"{percent}", f"{percent} %") for percent in fitting]
+    picked = w.choice("scale", f"{now.scale * 100:.0f}", sizes, hint, 9 * em)
+    if picked:
+        _change(desk, scale=int(picked) / 100)
+    imgui.spacing()
+    imgui.text_disabled("Size of texts")
+    changed, size = w.stepper("Points", round(now.font_size), (12, 20), "Of the font; panels widen as it grows")
+    if changed:
+        _change(desk, font_size=float(size))
+
+
+def _memory(desk: Desk) -> None:
+    now = desk.preferred.now
+    hint = "What paintings may take, undo and all; what is more goes to the disk"
+    changed, own = w.tick(
+        "As fits this machine", not now.megabytes, f"A quarter of its memory, at most 4 GB.  {_LATER}"
+    )
+    if changed:
+        _change(desk, megabytes=0 if own else 2048)
+    if now.megabytes:
+        changed, value = w.slider(
+            "Memory", now.megabytes, (64.0, 65536.0), f"{hint}.  {_LATER}", form="%.0f MB", curved=True
+        )
+        if changed:
+            _change(desk, megabytes=round(value))
+    imgui.text_disabled(_LATER)
+
+
+def _files(desk: Desk) -> None:
+    now = desk.preferred.now
+    imgui.text_disabled("What a save replaces is kept")
+    hint = "How many earlier versions of each file are kept (File > Earlier versions)"
+    changed, count = w.stepper("Versions", now.versions, (1, 100), hint)
+    if changed:
+        _change(desk, versions=count)
+    hint = "All earlier versions and the bin take no more than this together"
+    changed, value = w.slider("At most", now.gigabytes, (0.1, 500.0), hint, form="%.1f GB", curved=True)
+    if changed:
+        _change(desk, gigabytes=round(value, 1))
+    hint = "And no more than this part of what is free on the disk"
+    changed, value = w.slider("Of the free disk", now.part_of_free * 100, (1.0, 100.0), hint, form="%.0f %%")
+    if changed:
+        _change(desk, part_of_free=round(value) / 100)
+    imgui.text_disabled(_LATER)
+    imgui.spacing()
+    imgui.push_text_wrap_pos(0)
+    imgui.text_disabled(f"All preferences lie in {preferences_file()}")
+    imgui.pop_text_wrap_pos()
