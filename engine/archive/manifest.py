@@ -14,6 +14,7 @@ from immutables import Map
 
 from engine.archive import grounds, plot_files
 from engine.archive.grounds import GroundEntry
+from engine.archive.held_inks import held_inks
 from engine.archive.implied import TEXTURES
 from engine.archive.others.lost_sources import layers_instead, lost_sources, told_of
 from engine.archive.plot_files import ExampleEntry, PlotEntry
@@ -190,7 +191,7 @@ def format_of(painting: Painting) -> int:
     clipped = any(node.clip for node in layers.walk(painting.root))
     wrapped = any(layer.wrap is not None or layer.heaps for layer in layers.layers(painting.root))
     masked = any(True for _ in selection_files.masks_of(painting.root))
-    inks = {i for layer in layers.layers(painting.root) for _, one in layer.pyramid.all_records() for i in one.inks}
+    inks = held_inks(painting.root)
     learnt = any(len(pictures_of(ink)) > 1 for ink in inks) or any(t.maps for t in painting.textures.values())
     beside = painting.guides or painting.touches or painting.paper is not None
     if any((roles, clipped, wrapped, masked, chosen, learnt, beside)):
