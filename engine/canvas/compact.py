@@ -13,6 +13,7 @@ from engine.texture.record import Instance
 from engine.texture.sparse_planes import MANY, SparsePlanes
 
 Extent = tuple[int, int, int, int, int]
+_EDGES = np.s_[0, :], np.s_[-1, :], np.s_[:, 0], np.s_[:, -1]
 
 
 def blank_found(data: np.ndarray) -> Found:
@@ -63,9 +64,12 @@ def filled_planes(inks: tuple[Instance, ...], used: np.ndarray) -> tuple[np.ndar
 
 def trimmed(rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], depth: int) -> Record | None:
     """As `compact`, of int16, which is the record's own where nothing is to be left out."""
+    if not inks and all(data[:, *edge].any() for edge in _EDGES):  # what fills its rectangle is not gone through
+        data.flags.writeable = False
+        return Record(rect, data, inks, depth)
     used = np.empty(len(data), np.int32)
-    found, y0, y1, x0, x1 = counting.edges(data, used, np.empty(data.shape[2], np.int16))
-    if not found:
+    bits, y0, y1, x0, x1 = counting.edges(data, used)
+    if bits == 0:
         return None
     planes, kept = filled_planes(inks, used)
     at = Rect(rect.x0 + x0, rect.y0 + y0, rect.x0 + x1, rect.y0 + y1)

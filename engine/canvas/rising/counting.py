@@ -199,62 +199,22 @@ def _span(rows: np.ndarray, columns: np.ndarray) -> tuple[int, int, int, int, in
 
 
 @or_plain(plainly.edges)
-@uncounted
-def edges(data: np.ndarray, used: np.ndarray, columns: np.ndarray) -> Span:
-    """As `extent`, of int16 (C, h, w), but that all bits are 1 where there are any: not all of what fills its rectangle
-    is gone through.  `columns`, int16 (w,), is written over."""
-    y0, y1 = 0, data.shape[1]
-    while y0 < y1 and not _in_row(data, y0):
-        y0 += 1
-    while y0 < y1 and not _in_row(data, y1 - 1):
-        y1 -= 1
+@kernel
+def edges(data: np.ndarray, used: np.ndarray) -> tuple[int, int, int, int, int]:
+    """As `extent`, of int16 (C, h, w)."""
+    columns, rows = np.zeros(data.shape[2], np.int16), np.zeros(data.shape[1], np.int32)
     for c in range(data.shape[0]):
-        used[c], y = 0, y0
-        while y < y1 and not used[c]:
-            used[c] = _any(data[c, y])
-            y += 1
-    width = data.shape[2]
-    if y0 == y1:
-        return 0, y1, 0, width, 0
-    if _in_column(data, 0) and _in_column(data, width - 1):
-        return 1, y0, y1, 0, width
-    columns[:] = 0
-    for c in range(data.shape[0]):
-        for y in range(y0, y1):
-            row = data[c, y]
-            for i in range(width):
-                columns[i] |= row[i]
-    x0, x1 = 0, width
-    while not columns[x0]:
-        x0 += 1
-    while not columns[x1 - 1]:
-        x1 -= 1
-    return 1, y0, y1, x0, x1
-
-
-@inner_uncounted
-def _any(row: np.ndarray) -> int:
-    """Tells whether any of a row is not zero: 0 or 1."""
-    bits = np.int16(0)
-    for i in range(row.size):
-        bits |= row[i]
-    return 1 if bits else 0
-
-
-@inner_uncounted
-def _in_row(data: np.ndarray, y: int) -> bool:
-    """Tells whether anything in a row of planes is not zero."""
-    c = 0
-    while c < data.shape[0] and not _any(data[c, y]):
-        c += 1
-    return c < data.shape[0]  # type: ignore[no-any-return]
-
-
-@inner_uncounted
-def _in_column(data: np.ndarray, x: int) -> bool:
-    """Tells whether anything in a column of planes is not zero."""
-    for c in range(data.shape[0]):
+        found = np.int32(0)
         for y in range(data.shape[1]):
-            if data[c, y, x]:
-                return True
-    return False
+            row = data[c, y]
+            bits = np.int16(0)
+            for i in range(row.size):
+                columns[i] |= row[i]
+                bits |= row[i]
+            rows[y] |= np.int32(bits) & 0xFFFF
+            found |= np.int32(bits) & 0xFFFF
+        used[c] = found
+    wide = np.empty(columns.size, np.int32)
+    for x in range(wide.size):
+        wide[x] = np.int32(columns[x]) & 0xFFFF
+    return _span(rows, wide)

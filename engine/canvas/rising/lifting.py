@@ -185,7 +185,8 @@ def _lower_pair(
     (means, corner), (kept, marks, spans) = coarser, above
     n, x = last - first, first + shift
     span = spans[row, s]
-    span[0], span[1] = min(span[0], x), max(span[1], x + n)
+    span[0] = x if x < span[0] else span[0]
+    span[1] = x + n if x + n > span[1] else span[1]
     for c in range(values.shape[0]):
         before, after = means[0, c, row - corner[0]], means[1, c, row - corner[0]]
         old = was[0, c][2 * first - start :], was[1, c][2 * first - start :]

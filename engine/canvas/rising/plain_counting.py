@@ -82,11 +82,9 @@ def renew(
     return changed, bits
 
 
-def edges(data: np.ndarray, used: np.ndarray, columns: np.ndarray) -> Span:
+def edges(data: np.ndarray, used: np.ndarray) -> Span:
     """Does what the kernel of that name in `counting` does."""
-    there = data != 0
-    used[...] = there.any(axis=(1, 2))
-    return span(there.any(axis=(0, 2)).astype(np.int32), there.any(axis=(0, 1)).astype(np.int32))
+    return extent(data.astype(np.int32) & 0xFFFF, used)
 
 
 def extent(data: np.ndarray, used: np.ndarray) -> Span:

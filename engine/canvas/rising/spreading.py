@@ -71,9 +71,11 @@ def _widen(spans: Array, first: int, last: int, phase: int) -> None:
     """Has the spans of the tiles of a row hold some columns."""
     for t in range((first + phase) // TILE, (last - 1 + phase) // TILE + 1):
         edge, span = TILE * t - phase, spans[t]
-        begin, end = max(first, edge), min(last, edge + TILE)
+        begin = edge if edge > first else first
+        end = edge + TILE if edge + TILE < last else last
         empty = span[0] >= span[1]
-        span[0], span[1] = begin if empty else min(span[0], begin), end if empty else max(span[1], end)
+        span[0] = begin if empty or begin < span[0] else span[0]
+        span[1] = end if empty or end > span[1] else span[1]
 
 
 @inner_uncounted

@@ -152,16 +152,24 @@ def test_a_renewed_residual_is_what_is_left_of_the_values(kernel, largest):
 def test_the_edges_of_small_integers_are_those_of_large_ones(kernel):
     data = np.zeros((7, 9, 11), np.int16)
     used, wanted = np.empty((2, 7), np.int32)
-    columns = np.empty(11, np.int16)
-    assert kernel(data, used, columns)[0] == 0
+    assert kernel(data, used)[0] == 0
     data[1, 3, 4], data[5, 6, 2] = -32767, 1
-    assert kernel(data, used, columns)[1:] == counting.extent(data.astype(np.int32), wanted)[1:] == (3, 7, 2, 5)
-    assert used.tolist() == (wanted != 0).tolist()
-    full = np.ascontiguousarray(data[:, 3:7, 2:5])
-    assert kernel(full, used, columns)[1:] == (0, 4, 0, 3)
+    assert kernel(data, used)[1:] == counting.extent(data.astype(np.int32), wanted)[1:] == (3, 7, 2, 5)
+    assert (used != 0).tolist() == (wanted != 0).tolist()
     record = trimmed(Rect(8, 16, 19, 25), data, (), 3)
     assert record.rect == Rect(10, 19, 13, 23)
     assert np.array_equal(record.data, data[:, 3:7, 2:5])
+
+
+@pytest.mark.parametrize("place", [(0, 3, 2), (3, 8, 10)])
+def test_what_fills_its_rectangle_is_the_record(place):
+    data = np.zeros((4, 9, 11), np.int16)
+    data[0, 0, 5] = data[1, 8, 5] = data[2, 4, 0] = data[3, 4, 10] = 7
+    again = data.copy()
+    assert trimmed(Rect(8, 16, 19, 25), data, (), 3).data is data
+    again[data != 0] = 0
+    again[place], again[0, 4, 5] = 1, 1
+    assert trimmed(Rect(8, 16, 19, 25), again, (), 3).data.size < data.size
 
 
 @pytest.mark.parametrize("kernel", both(counting.crop))
