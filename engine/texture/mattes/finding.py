@@ -30,11 +30,13 @@ class Sought:
 
 class Outline(NamedTuple):
     """What belongs in the small picture, `trace` float32 (h, w) in 0..1; `said`: int8 (h, w), where marks say that it
-    does, 1, or does not, -1; `whole`: the picture has no ground."""
+    does, 1, or does not, -1; `whole`: the picture has no ground; `near`: where the last mark ends, in parts of width
+    and height: its rim is found there first."""
 
     trace: np.ndarray
     said: np.ndarray
     whole: bool
+    near: tuple[float, float] = (0.5, 0.5)
 
 
 def sought(pixels: np.ndarray) -> Sought:
@@ -52,7 +54,9 @@ def outlined(of: Sought, marks: Sequence[Mark] = ()) -> Outline:
         counts = np.bincount(patches.labels.ravel(), said.ravel().astype(np.float64), patches.count)
         found = corrected(patches, of.first, np.where(np.abs(counts) >= _TOLD * patches.areas, np.sign(counts), 0.0))
     trace = traced(patches, found, said)
-    return Outline(trace, said, bool(found.whole))
+    height, width = of.pixels.shape[:2]
+    ends = [mark.points[-1] for mark in marks[-1:]]
+    return Outline(trace, said, bool(found.whole), *((x / width, y / height) for x, y in ends))
 
 
 class Cut:
@@ -75,13 +79,12 @@ class Cut:
         for n, size in enumerate(ladder):
             last, known = n == len(ladder) - 1, Rect(0, 0, size[1], size[0])
             finer = None if last else (stretched(trace, size, known) > 0.5).astype(np.float32)
-            for piece in alphas(self._of.pixels, trace, said, size):
+            for piece in alphas(self._of.pixels, trace, said, size, self._outline.near):
                 if finer is not None:
                     finer[piece.rect.slices(known)] = piece.alpha
                 else:
                     self._set(piece.rect, piece.alpha, piece.colours)
-                part = (piece.rect.y0 * size[1] + piece.rect.x1 * piece.rect.height) / (size[0] * size[1])
-                yield (n + min(part, 1.0)) / len(ladder), piece if last else None
+                yield (n + piece.done) / len(ladder), piece if last else None
             trace = trace if finer is None else finer
 
     def _set(self, rect: Rect, alpha: np.ndarray, colours: np.ndarray | None) -> None:

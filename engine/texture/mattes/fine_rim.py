@@ -25,8 +25,10 @@ _NOTHING = 0.02  # alpha that is none, or all
 
 
 class Piece(NamedTuple):
-    """A part of the picture whose rim is found: alpha float32 (h, w), colours float32 (h, w, 3)."""
+    """A part of the picture whose rim is found: alpha float32 (h, w), colours float32 (h, w, 3); `done`: the part of
+    all pieces that were looked at by then, 0..1."""
 
+    done: float
     rect: Rect
     alpha: np.ndarray
     colours: np.ndarray
@@ -42,25 +44,36 @@ def sizes(size: tuple[int, int], small: tuple[int, int]) -> list[tuple[int, int]
     return [(min(size[0], round(small[0] * r)), min(size[1], round(small[1] * r))) for r in ladder] + [size]
 
 
-def alphas(pixels: np.ndarray, trace: np.ndarray, said: np.ndarray, size: tuple[int, int]) -> Iterator[Piece]:
-    """Yields pieces of the picture `pixels`, uint8 or uint16 RGBA (H, W, 4), reduced to a size, wherever its rim is;
-    `trace`: float32 (h, w), alpha as a coarser picture has it; `said`: int8 (k, l), where it is as that has it."""
+def laid_out(size: tuple[int, int], near: tuple[float, float]) -> list[Rect]:
+    """Returns the pieces of a picture of a height and width, from a place on, told as parts of width and height."""
+    whole, x0, y0 = Rect(0, 0, size[1], size[0]), near[0] * size[1], near[1] * size[0]
+    found = [
+        Rect.at(x, y, _SIDE, _SIDE).intersect(whole) for y in range(0, size[0], _SIDE) for x in range(0, size[1], _SIDE)
+    ]
+    return sorted(found, key=lambda r: (2 * x0 - r.x0 - r.x1) ** 2 + (2 * y0 - r.y0 - r.y1) ** 2)
+
+
+def alphas(
+    pixels: np.ndarray, trace: np.ndarray, said: np.ndarray, size: tuple[int, int], near: tuple[float, float]
+) -> Iterator[Piece]:
+    """Yields pieces of the picture `pixels`, uint8 or uint16 RGBA (H, W, 4), reduced to a size, wherever its rim is,
+    `near` a place first; `trace`: float32 (h, w), alpha as a coarser picture has it; `said`: int8 (k, l), where it is
+    as that has it."""
     full = int(np.iinfo(pixels.dtype).max)
     picture = pixels if size == pixels.shape[:2] else reduced(pixels, *size)
     coarse = max(size[0] / trace.shape[0], size[1] / trace.shape[1], 1.0)
     whole = Rect(0, 0, size[1], size[0])
-    for y in range(0, size[0], _SIDE):
-        for x in range(0, size[1], _SIDE):
-            rect = Rect.at(x, y, _SIDE, _SIDE).intersect(whole)
-            around = rect.grown(_MARGIN).intersect(whole)
-            first = stretched(trace, size, around)
-            if not (first.max() > _NOTHING and first.min() < 1 - _NOTHING):
-                continue
-            rgb = _coloured(picture[around.slices(whole)], full)
-            held = stretched(np.abs(said).astype(np.float32), size, around) > 0.5
-            alpha, colours = _piece(rgb, first, held, coarse)
-            inner = rect.slices(around)
-            yield Piece(rect, alpha[inner], colours[inner])
+    pieces = laid_out(size, near)
+    for n, rect in enumerate(pieces):
+        around = rect.grown(_MARGIN).intersect(whole)
+        first = stretched(trace, size, around)
+        if not (first.max() > _NOTHING and first.min() < 1 - _NOTHING):
+            continue
+        rgb = _coloured(picture[around.slices(whole)], full)
+        held = stretched(np.abs(said).astype(np.float32), size, around) > 0.5
+        alpha, colours = _piece(rgb, first, held, coarse)
+        inner = rect.slices(around)
+        yield Piece((n + 1) / len(pieces), rect, alpha[inner], colours[inner])
 
 
 def stretched(trace: np.ndarray, size: tuple[int, int], rect: Rect) -> np.ndarray:

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from bench.composites import composites
 from bench.masks import judged
-from engine.texture.mattes.finding import cut_out_of, outlined, sought
-from engine.texture.mattes.fine_rim import colours_without
+from engine.texture.mattes.finding import Cut, cut_out_of, outlined, sought
+from engine.texture.mattes.fine_rim import colours_without, laid_out
 from engine.texture.mattes.marks import Mark, where_marked
 from engine.texture.mattes.patchwork import SUPERPIXELS, patchwork, reduced
 from engine.texture.mattes.things import cut_apart, grown_region, things
@@ -111,6 +111,19 @@ def test_holes_of_the_picture_stay_holes():
     inside[:30] = inside[45:55, 70:80] = False
     assert overlap(cut[..., 3] > 127, inside) > 0.95
     assert not cut_out_of(sought(np.zeros((30, 30, 4), np.uint8))).any()
+
+
+def test_its_rim_is_found_first_where_the_last_mark_ends():
+    pieces = laid_out((600, 1000), (0.9, 0.1))
+    assert (pieces[0].x0, pieces[0].y0) == (768, 0)
+    assert sum(one.width * one.height for one in pieces) == 600 * 1000
+    pixels, _ = disc(600, 600)
+    looked = sought(pixels)
+    mark = Mark(False, ((10.0, 10.0), (590.0, 590.0)), 4.0)
+    steps = list(Cut(looked, outlined(looked, [mark])).steps())
+    assert [done for done, _ in steps] == sorted(done for done, _ in steps)
+    assert steps[-1][0] <= 1.0
+    assert steps[0][1].rect.x0 > 0
 
 
 def test_it_is_the_same_every_time():
