@@ -50,3 +50,15 @@ def test_a_layer_is_extrapolated_where_one_looks_closer(program, stones):
         app.settled()
         found.append(edges(app.screen()))
     assert found[1] > 1.2 * found[0]
+
+
+def test_a_picture_as_ink_has_a_slider_for_its_detail(program, stones):
+    app = program()
+    app.settled()
+    Drag(app.display, window_of(app), stones).drop(510, 400)
+    app.click("Texture")
+    until(lambda: 'box ["right", "stones"' in app.log.read_text())
+    app.settled()
+    row = app.box("stones")
+    app.do("mousemove", round(row[2] + 48), round((row[1] + row[3]) / 2), "click", 1)
+    until(lambda: 'box ["", "Detail"' in app.log.read_text())
