@@ -160,13 +160,12 @@ def _open_window() -> Any:
 def _place_as_before() -> tuple[int, int]:
     """Has the window come up where it lay last, if that is still on a screen; returns its width and height."""
     box = read_box(kept_window_file())
-    if box is None:
-        return WIDTH, HEIGHT
-    (x, y, width, height), seen = fitted_box(box.area, [glfw.get_monitor_workarea(one) for one in glfw.get_monitors()])
-    if seen:
+    area, maximised = box or ((0, 0, WIDTH, HEIGHT), False)
+    (x, y, width, height), seen = fitted_box(area, [glfw.get_monitor_workarea(one) for one in glfw.get_monitors()])
+    if seen and box is not None:
         glfw.window_hint(glfw.POSITION_X, x)
         glfw.window_hint(glfw.POSITION_Y, y)
-    glfw.window_hint(glfw.MAXIMIZED, box.maximised)
+    glfw.window_hint(glfw.MAXIMIZED, maximised)
     return width, height
 
 

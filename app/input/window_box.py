@@ -36,7 +36,7 @@ def read_box(path: Path) -> WindowBox | None:
     try:
         with path.open("rb") as file:
             told = json.loads(file.read(_BYTES + 1))
-        return box_of(told.get("box"), told.get("maximised")) if isinstance(told, dict) else None
+        return box_of(told.get("box"), told.get("maximised", False)) if isinstance(told, dict) else None
     except (OSError, ValueError, RecursionError):
         return None
 

@@ -71,6 +71,8 @@ def test_what_is_remembered_is_laid_on_the_desk_again(desk, tmp_path):
     kept, fault = read_window(tmp_path / "window.json")
     assert (kept, fault) == (desk.remembered.kept, "")
     assert read_box(tmp_path / "window.json") == box
+    (tmp_path / "small.json").write_text('{"box": [40, 30, 900, 700]}')
+    assert read_box(tmp_path / "small.json") == box
     other = Desk(desk.view, [].append)
     other.known = replace(other.known, presets=(Preset("Mine", Brush(radius=4.0)),))
     restore_window(other, kept)

@@ -25,6 +25,7 @@ from app.panels.recent_menu import draw_recent
 from app.panels.starting.recent_pictures import ask_pictures
 
 _WIDE, _NARROW = 43.0, 27.0  # ems of the card at most; of it where its two halves lie one below the other
+_ONE_LINE = 37.0  # ems of a card in which the last words stand on one line
 _RATIO = 0.625  # of the picture's height to its width
 _DEMO = presets.bundled_folder().with_name("demo")
 _LAKE = FileRow("lake.png", False)
@@ -59,7 +60,7 @@ def _granite(desk: Desk) -> None:
 TRIES = (
     Try("Zoom in, and on, and on", "Wheel", "Paint keeps showing new detail, however near you go", _does("in")),
     Try("Paint with granite, then zoom into it", "", "Takes the brush Granite", _granite),
-    Try("Brushes and colours under the pointer", "Right click", "Favourites, wheel and zoom", _does("pop_up")),
+    Try("Brushes and colours at hand", "Right click", "Favourites, wheel and zoom", _does("pop_up")),
     Try("Make a texture of your own", "lab", "The texture lab: paint how coarse and how fine it is", _does("lab")),
     Try("See the painting as land", "land", "Light and dark are heights; fly over them", _does("land")),
 )
@@ -98,7 +99,7 @@ class StartPage:
         left, right = half * _RATIO + 1.5 * line, (len(TRIES) + 1) * 2.05 * em
         body = max(left, right) if wide >= _NARROW * em else left + right + em
         recent = 5.6 * em if desk.opened.paths else 0.0
-        return 5.9 * em + body + line + recent
+        return (5.9 if wide >= _ONE_LINE * em else 7.2) * em + body + line + recent
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
@@ -119,7 +120,9 @@ class StartPage:
         if desk.opened.paths:
             self._recent(desk, em)
         imgui.spacing()
+        imgui.push_text_wrap_pos(0)
         imgui.text_disabled("Or just paint: a press beside this page closes it. Help > Start page shows it again.")
+        imgui.pop_text_wrap_pos()
         if not desk.asked.shown and not imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
             self._ask(desk)
 
@@ -162,7 +165,8 @@ class StartPage:
             painter.add_text(ImVec2(corner.x + 0.3 * em, y), theme.packed(theme.TEXT), row.title)
             keys = (*ACTIONS[row.by].keys, "")[0] if row.by in ACTIONS else row.by
             right = corner.x + wide - imgui.calc_text_size(keys).x - 0.3 * em
-            painter.add_text(ImVec2(right, y), theme.packed(theme.ACCENT), keys)
+            if right > corner.x + imgui.calc_text_size(row.title).x + em:
+                painter.add_text(ImVec2(right, y), theme.packed(theme.ACCENT), keys)
 
     def _begin(self, desk: Desk) -> None:
         for i, name in enumerate(("new", "open")):
