@@ -20,6 +20,8 @@ _CLIP = 3.0  # of a logarithm of likelihoods
 _RARE = 2e-3  # of any kind of colour, in every model
 _FAINT = 0.004  # of the picture: what is smaller is none
 _AS_GOOD = 0.005  # of two models: nearly as far apart as any
+_RATHER, _SCATTERED = 0.5, 0.55  # how alike both are, and the part with ground beside it, of a texture
+_MANY = 1000  # superpixels, from which on that tells anything
 _SAME = 0.93  # of ground and the rest: more alike are one texture
 
 
@@ -52,10 +54,9 @@ def corrected(patches: Patchwork, before: Belonging, said: np.ndarray) -> Belong
         return before
     ring = _ground(patches) * (said <= 0)
     inside = before.inside.copy()
-    if before.whole and (said < 0).any():
-        inside = np.where(said < 0, 0.0, 0.7)
-        if not (said > 0).any():
-            inside = _unlike(patches, said < 0)
+    if before.whole:  # so the ground is what is like what was dropped, or unlike what was kept
+        dropped = said < 0
+        inside = _unlike(patches, dropped) if dropped.any() else 1.0 - _unlike(patches, said > 0)
         ring = ring * 0.0
     inside[sure > 0], inside[sure < 0] = 1.0, 0.0
     return _settled(patches, inside, ring, sure, AGAIN)
@@ -108,9 +109,9 @@ def _first_looks(patches: Patchwork, ring: np.ndarray) -> list[np.ndarray]:
     return [both, _split(wide, patches.areas), _split(inward, patches.areas)]
 
 
-def _unlike(patches: Patchwork, dropped: np.ndarray) -> np.ndarray:
-    """Tells how unlike what was dropped each is, where all was thought to belong."""
-    return _split(-(patches.grained.shares @ np.log(_model(patches, dropped * patches.areas))), patches.areas)
+def _unlike(patches: Patchwork, marked: np.ndarray) -> np.ndarray:
+    """Tells how unlike what was marked each is."""
+    return _split(-(patches.grained.shares @ np.log(_model(patches, marked * patches.areas))), patches.areas)
 
 
 def _pooled(patches: Patchwork, values: np.ndarray, times: int) -> np.ndarray:
@@ -168,10 +169,21 @@ def learnt(patches: Patchwork, inside: np.ndarray, ring: np.ndarray, sure: np.nd
 
 
 def _is_texture(patches: Patchwork, found: Belonging) -> bool:
-    """Tells whether there is no ground: next to nothing lies on it, or what lies there is like it."""
+    """Tells whether there is no ground: next to nothing lies on it, or what lies there is like it, or is in pieces all
+    over it and not too unlike."""
     seen = patches.areas * ~patches.holes
     share = seen @ (found.inside > 0.5) / seen.sum()
-    return bool(share < _FAINT or share > 1 - _FAINT or _alike(found) > _SAME)
+    if share < _FAINT or share > 1 - _FAINT or _alike(found) > _SAME:
+        return True
+    return bool(patches.count > _MANY and _alike(found) > _RATHER and _scattered(patches, found) > _SCATTERED)
+
+
+def _scattered(patches: Patchwork, found: Belonging) -> float:
+    """Tells which part of what is inside has ground beside it, 0..1: near 1 for mortar, pebbles' shadows, leaves."""
+    inside = found.inside > 0.5
+    beside = (patches.steps > 0) @ (~inside).astype(np.float64) > 0
+    area = patches.areas * inside
+    return float(area @ beside / area.sum())
 
 
 def _alike(found: Belonging) -> float:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from skimage import data
 
 from bench.composites import composites
 from bench.masks import judged
@@ -77,6 +78,28 @@ def test_a_picture_without_ground_is_all_of_it():
         looked = sought(pixels)
         assert outlined(looked).whole
         assert np.array_equal(cut_out_of(looked), pixels)
+
+
+@pytest.mark.parametrize("name", ["brick", "gravel"])
+def test_a_texture_is_not_taken_for_things_on_a_ground(name):
+    picture = getattr(data, name)()[:200, :200]
+    assert outlined(sought(opaque(picture[..., None]))).whole
+
+
+def test_of_a_texture_a_mark_tells_what_its_ground_is():
+    looked = sought(opaque(data.brick()[..., None]))
+    brick = Mark(True, ((30.0, 60.0), (30.0, 90.0)), 6.0)
+    for mark, low, high in ((brick, 0.7, 0.92), (brick._replace(keep=False), 0.08, 0.3)):
+        found = outlined(looked, [mark])
+        assert not found.whole
+        assert low < (found.trace > 0.5).mean() < high
+
+
+def test_many_things_are_not_taken_for_a_texture():
+    coins = opaque(data.coins()[..., None])
+    found = cut_out_of(sought(coins))
+    assert len(things(found)) == 24
+    assert 0.25 < (found[..., 3] > 127).mean() < 0.4
 
 
 @pytest.mark.parametrize("size", [(1, 1), (8, 8), (1, 5000), (5000, 3), (9, 700), (40, 40)])
@@ -164,8 +187,8 @@ def test_a_region_holds_all_that_is_seen_and_a_little_more():
 
 @settings(max_examples=20, deadline=None)
 @given(st.integers(1, 30), st.integers(1, 30), st.data())
-def test_means_over_rectangles_keep_the_sum(height, width, data):
-    rows, columns = data.draw(st.integers(1, height)), data.draw(st.integers(1, width))
+def test_means_over_rectangles_keep_the_sum(height, width, drawn):
+    rows, columns = drawn.draw(st.integers(1, height)), drawn.draw(st.integers(1, width))
     pixels = np.random.default_rng(height * 31 + width).integers(0, 256, (height, width, 2)).astype(np.uint8)
     found = reduced(pixels, rows, columns)
     assert found.shape == (rows, columns, 2)
