@@ -124,6 +124,6 @@ def _tell(given: argparse.Namespace, cut: np.ndarray, whole: bool, colours: str)
         print(json.dumps(facts))
         return
     if whole:
-        print("no ground was found: the whole picture is inside")
+        print("no ground was found: all that is not transparent is inside")
     several = f", {len(places)} regions" if len(places) > 1 else ""
     print(f"wrote {given.out} and {colours}: {width} x {height} pixels, {inside:.0%} inside{several}")
