@@ -80,39 +80,41 @@ class TileCache:
 
     def get(self, pyramid: Pyramid, key: CacheKey) -> tuple[bool, Planes | None]:
         """(known, value) of a tile, contiguous; a value of None is an empty tile."""
-        kept = self._find(pyramid, key)
-        if kept is None:
-            return False, None
-        value = kept.value
-        if value is not None and not value.data.flags.c_contiguous:
-            value = kept.value = Planes(value.data.copy(), value.inks)
-        return True, value
+        with self._lock:
+            kept = self._find(pyramid, key)
+            if kept is None:
+                return False, None
+            if kept.value is not None and not kept.value.data.flags.c_contiguous:
+                kept.value = Planes(kept.value.data.copy(), kept.value.inks)
+            return True, kept.value
 
     def view(self, pyramid: Pyramid, key: CacheKey) -> tuple[bool, Planes | None]:
         """As `get`, but the planes may be a part of larger ones."""
-        kept = self._find(pyramid, key)
-        return (False, None) if kept is None else (True, kept.value)
+        with self._lock:
+            kept = self._find(pyramid, key)
+            return (False, None) if kept is None else (True, kept.value)
 
     def _find(self, pyramid: Pyramid, key: CacheKey) -> _Kept | None:
+        """Returns what is kept of a tile, brought up to a state; with the lock held, as another state may be asked for
+        next."""
         place = (pyramid.uid, key)
-        with self._lock:
-            there = self._levels.get(key.level)
-            kept = there.tiles.get(place) if there is not None else None
-            if there is None or kept is None:
+        there = self._levels.get(key.level)
+        kept = there.tiles.get(place) if there is not None else None
+        if there is None or kept is None:
+            return None
+        if kept.since is not pyramid.last:
+            written = self._raised.since(kept.since, pyramid.last, key.level, key.rect)
+            if written:
+                self._count(there, -kept.nbytes)
+                kept.exchange(brought_up(kept.value, key.rect, written))
+                self._count(there, kept.nbytes)
+            elif written is None and _touched(kept.since, pyramid.last, key):
                 return None
-            if kept.since is not pyramid.last:
-                written = self._raised.since(kept.since, pyramid.last, key.level, key.rect)
-                if written:
-                    self._count(there, -kept.nbytes)
-                    kept.exchange(brought_up(kept.value, key.rect, written))
-                    self._count(there, kept.nbytes)
-                elif written is None and _touched(kept.since, pyramid.last, key):
-                    return None
-                kept.since = pyramid.last
-            there.tiles.move_to_end(place)
-            self._uses += 1
-            kept.used = self._uses
-            return kept
+            kept.since = pyramid.last
+        there.tiles.move_to_end(place)
+        self._uses += 1
+        kept.used = self._uses
+        return kept
 
     def keep(self, pyramid: Pyramid, key: TileKey, value: Planes | None) -> None:
         """Keep a copy of a tile's value; None is an empty tile."""

@@ -154,3 +154,31 @@ def test_the_levels_around_a_commit_count_and_are_let_go():
     commit(pyramid, edit(np.random.default_rng(9)), cache)
     cache.shrink(0)
     assert cache.held == 0
+
+
+class Hurried:
+    """A lock; as soon as it is free again, another thread's work is done, once."""
+
+    def __init__(self, lock, work):
+        self._lock, self._work = lock, [work]
+
+    def __enter__(self):
+        return self._lock.__enter__()
+
+    def __exit__(self, *told):
+        self._lock.__exit__(*told)
+        if self._work:
+            self._work.pop()()
+
+
+@pytest.mark.parametrize("ask", [TileCache.get, TileCache.view])
+def test_a_tile_is_that_of_the_state_that_asks_while_another_thread_asks_for_a_newer_one(ask, monkeypatch):
+    cache, pyramid, key = TileCache(64 << 20), painted(8), TileKey(-2, -1, 0)
+    before = evaluate(pyramid, key.level, key.rect, cache).rgba.copy()
+    whole = ArrayEdit(0, -200, -20, *(np.full(size, 0.5, np.float32) for size in ((100, 180), (4, 100, 180))))
+    after = commit(pyramid, whole, cache)
+    assert not np.array_equal(evaluate(after, key.level, key.rect).rgba, before)
+    monkeypatch.setattr(cache, "_lock", Hurried(cache._lock, lambda: cache.get(after, key)))
+    known, value = ask(cache, pyramid, key)
+    assert known
+    assert np.array_equal(value.rgba, before)
