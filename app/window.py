@@ -54,6 +54,7 @@ from app.panels.controls.folds import keep_folds_in
 from app.panels.guides.assistant_marks import draw_assistants
 from app.panels.layout import Layout
 from app.panels.moving import box_marks, frame_marks
+from app.panels.strip import STRIPS
 from app.router import Router
 from app.solid_view import SolidView
 from app.trace import trace_rest, trace_typing
@@ -124,7 +125,7 @@ class Window:
         self.desk.graphics = f"{self.ctx.info['GL_RENDERER']}, {self.ctx.info['GL_VERSION']}"
         self._guard = FaultGuard(lambda: self.desk.told(_FAULT))
         self._faults = _lay_kept(self.desk)
-        self._remembering, self._views = Remembering(partial(box_of_window, handle, scale)), ViewsWatched()
+        self._remembering, self._views = Remembering(partial(box_of_window, handle, scale), STRIPS), ViewsWatched()
         self.layout = Layout(self._guard)
         self.router = Router(self.desk, self.layout)
         self.pointers = Pointers(handle)

@@ -86,6 +86,17 @@ def test_what_is_remembered_is_laid_on_the_desk_again(desk, tmp_path):
     assert other.remembered.folded == {"Layers": False}
 
 
+@pytest.mark.parametrize(("strip", "opened"), [("lab", "lab"), ("of a newer program", "")])
+def test_what_was_open_below_the_canvas_is_again_once_the_engine_is_there(desk, strip, opened):
+    restore_window(desk, KeptWindow(strip=strip, export=ExportState("of a newer program")))
+    watched = Remembering(lambda: None, ("lab", "match"))
+    watched.watch(desk, 1.0)
+    assert desk.strip == ""
+    desk.learn(ready=True)
+    watched.watch(desk, 3.0)
+    assert (desk.strip, desk.export.area) == (opened, "frame")
+
+
 def test_folders_that_are_gone_and_brushes_that_are_gone_are_not_laid_there(desk, tmp_path):
     kept = KeptWindow(folders=(("Film", str(tmp_path / "gone")),), hand=KeptHand(Preset("Gone", Brush(radius=9.0))))
     restore_found(desk, kept_window.found_again(kept))

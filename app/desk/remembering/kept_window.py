@@ -3,14 +3,15 @@ whenever something else of it has been so for a while."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
 from app.desk.colours import from_hex, to_hex
 from app.desk.desk import Desk, FileWork
-from app.desk.exporting.export_state import EXPORT_CHOICES
+from app.desk.exporting.export_areas import AREAS
+from app.desk.exporting.export_state import EXPORT_CHOICES, FRAME_AREA
 from app.desk.presets import Preset
 from app.desk.remembering.kept_json import read_kept_object, write_kept_object
 from app.desk.remembering.window_record import KeptHand, KeptWindow, window_json, window_of
@@ -61,6 +62,8 @@ def restore_window(desk: Desk, kept: KeptWindow) -> None:
     desk.remembered.strip, desk.remembered.folded = kept.strip, dict(kept.folded)
     for name in EXPORT_CHOICES:
         setattr(desk.export, name, getattr(kept.export, name))
+    if desk.export.area not in AREAS:
+        desk.export.area = FRAME_AREA
     if kept.hand.colours is not None:
         desk.hand.colour, desk.hand.other_colour = (from_hex(colour) for colour in kept.hand.colours)
     if kept.hand.stabiliser is not None:
@@ -80,10 +83,11 @@ def restore_found(desk: Desk, found: FoundAgain) -> None:
 
 
 class Remembering:
-    """Looks now and then for what is to be remembered; all calls from the window's thread."""
+    """Looks now and then for what is to be remembered; all calls from the window's thread.  `strips`: what may be open
+    below the canvas."""
 
-    def __init__(self, where: Where) -> None:
-        self._where = where
+    def __init__(self, where: Where, strips: Collection[str] = ()) -> None:
+        self._where, self._strips = where, strips
         self._next, self._told = 0.0, (KeptWindow(), KeptWindow())
 
     def watch(self, desk: Desk, now: float) -> None:
@@ -92,7 +96,8 @@ class Remembering:
             return
         self._next = now + _PAUSE
         if desk.remembered.strip and desk.known.ready:
-            desk.strip, desk.remembered.strip = desk.remembered.strip, ""
+            wanted, desk.remembered.strip = desk.remembered.strip, ""
+            desk.strip = wanted if wanted in self._strips else desk.strip
         self._keep(desk, sure=False)
 
     def end(self, desk: Desk) -> None:
