@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from test_selecting import GROUND, seen, selected, told
 
@@ -30,12 +30,14 @@ NEW = {"do": "layer", "duplicate": "Paint", "to": "New", "selected": "copy"}
 
 
 def planes(painting, name, level=0):
-    return layer_planes(layers.find(painting.root, name), level, WINDOW)
+    found = layer_planes(layers.find(painting.root, name), level, WINDOW)
+    return np.zeros((4, WINDOW.height, WINDOW.width), np.float32) if found is None else found
 
 
 @given(
     st.integers(-30, 90), st.integers(-30, 60), st.integers(1, 120), st.sampled_from([0.0, 6.0, 14.0]), st.booleans()
 )
+@example(x=0, y=0, side=1, feather=0.0, inverse=True)  # all of it is taken
 @settings(max_examples=4, deadline=None)
 def test_what_a_cut_takes_and_leaves_adds_up_to_what_was_there(x, y, side, feather, inverse):
     session = told(Session(GROUND), {"do": "select", "ellipse": [0, x, y, side, side], "feather": feather})
