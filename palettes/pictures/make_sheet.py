@@ -122,9 +122,9 @@ class Sheet:
         self.column += 1
 
     def save(self, path: Path) -> None:
-        """In steps of 5 of each channel, to be a small file."""
+        """In steps of 8 of each channel, to be a small file."""
         whole = self.image.crop((0, 0, self.image.width, self.y + TALL + CAPTION + MARGIN))
-        coarse = np.minimum((np.asarray(whole, np.uint16) + 2) // 5 * 5, 255).astype(np.uint8)
+        coarse = np.minimum((np.asarray(whole, np.uint16) + 4) // 8 * 8, 255).astype(np.uint8)
         Image.fromarray(coarse).save(path, optimize=True)
 
 

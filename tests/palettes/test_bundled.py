@@ -84,9 +84,11 @@ def test_there_are_brushes_of_spectral_textures():
 
 @pytest.mark.parametrize("name", ["Thaw", "Stony grass"])
 def test_the_pen_chooses_between_two_matched_textures(name):
-    """A light touch paints the first example, a hard one the second: their colours, and how rough they are."""
+    """A hard touch paints the first example, whose layout both have, a light one the second: their colours, and how
+    rough they are."""
     (preset,) = (found for found in palette.load_brushes(PALETTES / "brushes")[0] if found.name == name)
     (command,) = preset.textures
+    assert (command.arguments["structure"], command.arguments["detail"]) == ("full", "learnt")
     painting = apply(Painting(Rect.at(0, 0, 200, 80)), command)
 
     def painted_at(pressure):
@@ -95,7 +97,7 @@ def test_the_pen_chooses_between_two_matched_textures(name):
         return evaluate(layer.pyramid, 0, Rect.at(50, 28, 100, 24)).data[:3]
 
     light, middle, hard = (painted_at(pressure) for pressure in (0.1, 0.55, 1.0))
-    for seen, member in ((light, "path"), (hard, "pattern")):
+    for seen, member in ((hard, "path"), (light, "pattern")):
         example = np.asarray(Image.open(command.arguments[member]), np.float32).transpose(2, 0, 1) / 255
         assert np.abs(seen.mean((1, 2)) - example.mean((1, 2))).max() < 0.08
         assert seen.std() == pytest.approx(example.std(), rel=0.3)

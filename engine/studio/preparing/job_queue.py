@@ -48,14 +48,22 @@ _BEFORE_EXAMPLES = 3  # one in so many brushes comes before the first that grows
 
 def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
     """Returns the jobs of brushes, most likely first: those that grow examples last, but for one, whose many kernels
-    come one after the other, while a second process has others to compile; what refines pictures, matching
-    and files after all brushes, as they take long, and who saves waits for it where nobody sees it."""
+    come one after the other, while a second process has others to compile; what refines pictures, matching, the
+    brushes that need these, and files after all others, as they take long, and who saves waits for it where nobody
+    sees it."""
     listed = list(swatches)
-    grow = [swatch for swatch in listed if swatch.brush.row.grows]
-    others = [swatch for swatch in listed if not swatch.brush.row.grows]
+    late = [swatch for swatch in listed if _is_refined(swatch)]
+    grow = [swatch for swatch in listed if swatch.brush.row.grows and swatch not in late]
+    others = [swatch for swatch in listed if not swatch.brush.row.grows and swatch not in late]
     at = len(others) // _BEFORE_EXAMPLES
     ordered = (*others[:at], *grow[:1], *others[at:], *grow[1:])
-    return (*dict.fromkeys(map(job_of, ordered)), LEARNT_DETAIL, STRUCTURE, FILES)
+    jobs = (*map(job_of, ordered), LEARNT_DETAIL, STRUCTURE, *map(job_of, late), FILES)
+    return tuple(dict.fromkeys(jobs))
+
+
+def _is_refined(swatch: Swatch) -> bool:
+    """Tells whether a brush has a texture with a structure, or with learnt detail."""
+    return any({"structure", "detail"} & set(texture.arguments) for texture in swatch.textures)
 
 
 class JobQueue:

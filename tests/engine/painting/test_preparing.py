@@ -13,8 +13,9 @@ import pytest
 
 from engine.brush.parts import Surface
 from engine.brush.settings import Brush
+from engine.painting.commands import parse
 from engine.studio.preparing import exercise, noted
-from engine.studio.preparing.job_queue import Job, job_of
+from engine.studio.preparing.job_queue import FILES, LEARNT_DETAIL, STRUCTURE, Job, expected, job_of
 from engine.studio.preparing.processes import Preparing
 from engine.studio.requests import Swatch
 
@@ -72,6 +73,15 @@ def make(folder):
     for preparing in made:
         preparing.close()
     assert not [thread for thread in threading.enumerate() if thread.name == "inkfall preparing"]
+
+
+def test_brushes_of_textures_with_a_structure_come_after_what_these_need():
+    brushes = {}
+    for name, more in (("slow", {"structure": "full"}), ("finer", {"detail": "learnt"}), ("soon", {})):
+        texture = parse({"do": "texture", "name": name, "maker": "match", "path": "a.png", **more})
+        brushes[name] = Swatch(name, Brush(), (104, 44), textures=(texture,))
+    slow, finer, soon = map(job_of, brushes.values())
+    assert expected(brushes.values()) == (soon, LEARNT_DETAIL, STRUCTURE, slow, finer, FILES)
 
 
 def compiled(folder, preparing, seconds=60.0):
