@@ -9,6 +9,7 @@ from app.desk import flight
 from app.desk.desk import Desk, Hear, Message
 from app.desk.files import Done
 from app.desk.holding.kept_desk import keep_colours
+from app.desk.holding.palette_making import TO_PALETTE, palette_of_copied
 from app.desk.holding.picking_up import take_ink
 from app.desk.known import Known, known_after
 from app.desk.moving import independence
@@ -72,6 +73,13 @@ def _picked(desk: Desk, picked: results.Picked, _now: float) -> None:
         desk.hand.colour = picked.rgb
 
 
+def _copied(desk: Desk, told: Copied, now: float) -> None:
+    if told.about == TO_PALETTE:
+        palette_of_copied(desk, told)
+    else:
+        clipboard.give_away(desk, told, now)
+
+
 HEARS: dict[type, Hear] = {
     Done: _done,
     results.Note: _note,
@@ -81,7 +89,7 @@ HEARS: dict[type, Hear] = {
     results.Overtaken: _overtaken,
     results.Picked: _picked,
     Here: take_ink,
-    Copied: clipboard.give_away,
+    Copied: _copied,
     results.Looked: flight.fly,
     Tried: lambda desk, tried, now: setattr(desk.adjusting, "best", tried),
     Extent: lambda desk, extent, now: desk.moving.told(extent),

@@ -63,11 +63,7 @@ def from_oklch(lightness: float, chroma: float, hue: float) -> RGB:
     """sRGB 0..1: where the colour cannot be shown, the nearest chroma that can, same lightness and hue."""
     lightness = max(0.0, min(1.0, lightness))
     if not _shows(_oklch_rgb(lightness, chroma, hue)):
-        low, high = 0.0, chroma
-        for _ in range(12):
-            middle = (low + high) / 2
-            low, high = (middle, high) if _shows(_oklch_rgb(lightness, middle, hue)) else (low, middle)
-        chroma = low
+        chroma = most_chroma(lightness, hue, chroma)
     r, g, b = (_encoded(max(0.0, min(1.0, v))) for v in _oklch_rgb(lightness, chroma, hue))
     return r, g, b
 
@@ -91,6 +87,28 @@ def gone_along(rgb: RGB, old: RGB, new: RGB) -> RGB:
 
 def _plane(chroma: float, hue: float) -> complex:
     return cmath.rect(chroma, math.radians(hue))
+
+
+def most_chroma(lightness: float, hue: float, up_to: float = MOST_CHROMA) -> float:
+    """Returns the chroma of the most colourful sRGB colour of a lightness and hue."""
+    low, high = 0.0, up_to
+    for _ in range(12):
+        middle = (low + high) / 2
+        low, high = (middle, high) if _shows(_oklch_rgb(lightness, middle, hue)) else (low, middle)
+    return low
+
+
+def on_disc(lch: RGB) -> complex:
+    """Returns where a colour lies on the disc of its lightness: the hue round it, grey in the middle, and on the rim
+    the most colourful that shows."""
+    light, chroma, hue = lch
+    return _plane(min(1.0, chroma / max(most_chroma(light, hue), 1e-6)), hue)
+
+
+def off_disc(lightness: float, at: complex) -> RGB:
+    """Returns lightness, chroma and hue of what lies at a place of the disc."""
+    part, hue = abs(at), math.degrees(cmath.phase(at)) % 360
+    return lightness, min(1.0, part) * most_chroma(lightness, hue), hue
 
 
 def _shows(linear: RGB) -> bool:

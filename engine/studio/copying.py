@@ -46,9 +46,9 @@ class Copyist(Owned):
         level, area = request.level, request.area
         while area.area > _MOST:
             level, area = level - 1, area.zoomed(-1)
-        self._work = self._copied(level, area)
+        self._work = self._copied(level, area, request.about)
 
-    def _copied(self, level: int, area: Rect) -> Iterator[Copied | None]:
+    def _copied(self, level: int, area: Rect, about: str) -> Iterator[Copied | None]:
         session = self._easel.session
         root = pictured(session.painting.root)
         pixels = np.empty((area.height, area.width, 4), np.uint8)
@@ -57,4 +57,4 @@ class Copyist(Owned):
             planes = composite(root, level, strip, partial(layer_planes, cache=session.cache))
             pixels[top : top + _STRIP] = to_rgba8(planes)
             yield None
-        yield Copied(results.frozen(pixels))
+        yield Copied(results.frozen(pixels), about)

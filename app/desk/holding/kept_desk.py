@@ -1,5 +1,5 @@
-"""What a desk keeps between sessions: favourite brushes and the colours painted with, as `desk.json` in the
-configuration folder."""
+"""What a desk keeps between sessions: favourite brushes, the colours painted with and how the wheel is set, as
+`desk.json` in the configuration folder."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from app.desk.colours import from_hex, to_hex
 from app.desk.desk import Desk, FileWork
 from app.desk.hand import HISTORY
 from app.desk.holding.desk_record import MOST_FAVOURITES, KeptDesk
+from app.desk.holding.wheel_record import read_wheel, wheel_told
 from app.desk.remembering.kept_json import KeptObject, read_kept_object, write_kept_object
 from engine.checks.field_error import FieldError
 from engine.checks.values import described
@@ -33,7 +34,8 @@ def _kept_of(data: KeptObject) -> KeptDesk:
     favourites = _texts(data.get("favourites", list(KeptDesk().favourites)), "favourites", MOST_FAVOURITES)
     colours = _texts(data.get("colours", []), "colours", HISTORY)
     (palette,) = _texts([data.get("palette", "")], "palette", 1)
-    return KeptDesk(favourites, tuple(to_hex(from_hex(colour)) for colour in colours), palette)
+    wheel = read_wheel(data.get("wheel", {}))
+    return KeptDesk(favourites, tuple(to_hex(from_hex(colour)) for colour in colours), palette, wheel)
 
 
 def _texts(value: object, place: str, most: int) -> tuple[str, ...]:
@@ -52,6 +54,7 @@ class KeepDesk(FileWork):
         """Writes the file."""
         path, kept = kept_file(), self.kept
         told: KeptObject = {"favourites": kept.favourites, "colours": kept.colours, "palette": kept.palette}
+        told["wheel"] = wheel_told(kept.wheel)
         write_kept_object(path, told, bool(read_kept(path)[1]))
 
     def arrive(self, desk: Desk, found: None) -> None:

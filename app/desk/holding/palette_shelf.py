@@ -35,17 +35,20 @@ def load_palettes(folder: Path) -> tuple[list[ColourList], list[str]]:
 
 
 @dataclass(frozen=True, slots=True)
-class BringPalette(FileWork):
-    """Reads a palette and keeps it; `taken`: the names that others have."""
+class KeptPalette(FileWork):
+    """Finds a palette and keeps it; `taken`: the names that others have."""
 
-    path: Path
     taken: frozenset[str]
 
-    def carry_out(self) -> ColourList:
-        """Reads and writes it."""
-        from engine.files.swatches.palette_files import read_palette, write_palette
+    def found(self) -> ColourList:
+        """Returns it; OSError or FileError."""
+        raise NotImplementedError
 
-        read, folder = read_palette(self.path), palettes_folder()
+    def carry_out(self) -> ColourList:
+        """Finds and writes it."""
+        from engine.files.swatches.palette_files import write_palette
+
+        read, folder = self.found(), palettes_folder()
         found = replace(read, name=free_among(read.name, self.taken))
         folder.mkdir(parents=True, exist_ok=True)
         stem, number = stem_of(found.name), 1
@@ -64,6 +67,19 @@ class BringPalette(FileWork):
     def fail(self, desk: Desk, fault: str) -> None:
         """Tells what is wrong with the file."""
         desk.say(f"No palette was brought in: {fault}", bad=True)
+
+
+@dataclass(frozen=True, slots=True)
+class BringPalette(KeptPalette):
+    """Reads a palette and keeps it."""
+
+    path: Path
+
+    def found(self) -> ColourList:
+        """Reads it."""
+        from engine.files.swatches.palette_files import read_palette
+
+        return read_palette(self.path)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +106,12 @@ class WritePalette(FileWork):
 
 def bring_palette(desk: Desk, path: Path) -> None:
     """Has a palette taken in."""
-    desk.work(BringPalette(path, frozenset(palette.name for palette in desk.known.palettes)))
+    desk.work(BringPalette(taken_names(desk), path))
+
+
+def taken_names(desk: Desk) -> frozenset[str]:
+    """Returns the names that palettes have."""
+    return frozenset(palette.name for palette in desk.known.palettes)
 
 
 def show_palette(desk: Desk, name: str) -> None:

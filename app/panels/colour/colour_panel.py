@@ -10,7 +10,10 @@ from app import icons, theme
 from app.actions.actions import keyed, tip
 from app.desk.colours import MOST_CHROMA, RGB, from_hex, from_oklch, to_hex, to_oklch
 from app.desk.desk import Desk
+from app.desk.holding.gamut_mask import held_in
+from app.panels.colour.colour_wheel import ColourWheel, wheel_sizes
 from app.panels.colour.palette_section import draw_palette
+from app.panels.colour.wheel_sides import draw_left, draw_right
 from app.panels.controls import widgets as w
 from app.tools.filling_gestures import drop_colour
 
@@ -25,11 +28,13 @@ class ColourPanel:
         self._rgb: RGB = (-1.0, 0.0, 0.0)
         self._lch: RGB = (0.0, 0.0, 0.0)
         self._text = ""
+        self._round = ColourWheel()
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
         if not w.section("Colour"):
             return
+        self._follow(desk)
         self._wheel(desk)
         self._sliders(desk)
         self._pair(desk)
@@ -37,19 +42,36 @@ class ColourPanel:
         draw_palette(desk)
 
     def _wheel(self, desk: Desk) -> None:
-        room = imgui.get_content_region_avail().x
-        side = min(room, imgui.get_font_size() * 12.0)
-        imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + (room - side) / 2)
-        imgui.set_next_item_width(side)
-        changed, value = imgui.color_picker3("##wheel", list(desk.hand.colour), w.PICKER_FLAGS)
-        if changed:
-            desk.hand.colour = (value[0], value[1], value[2])
+        """Draws the wheel between what stands beside it."""
+        start, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+        wide, tall = wheel_sizes(room)
+        picked = self._round.draw(desk, self._lch)
+        if picked is not None:
+            self._pick(desk, picked)
+        beside = (room - tall) / 2 - 6 * desk.scale
+        imgui.set_cursor_screen_pos(ImVec2(start.x + room - beside, start.y))
+        shade = draw_right(desk, tall, beside)
+        if shade is not None:
+            desk.hand.colour = from_oklch(*held_in(desk.kept.wheel.limits, to_oklch(shade)))
+        imgui.set_cursor_screen_pos(start)
+        draw_left(desk, self._lch[2])
+        imgui.set_cursor_screen_pos(start)
+        imgui.dummy(ImVec2(wide, tall))
 
-    def _sliders(self, desk: Desk) -> None:
+    def _pick(self, desk: Desk, lch: RGB) -> None:
+        """Takes a colour as far as the gamut mask lets it, but remembers what was wished."""
+        self._lch = lch
+        desk.hand.colour = self._rgb = from_oklch(*held_in(desk.kept.wheel.limits, lch))
+
+    def _follow(self, desk: Desk) -> None:
+        """Takes over a colour that was chosen elsewhere."""
         if desk.hand.colour != self._rgb:
             new = to_oklch(desk.hand.colour)
             keep = new[1] < 0.004  # a grey has no hue of its own
             self._rgb, self._lch = desk.hand.colour, (new[0], new[1], self._lch[2] if keep else new[2])
+
+    def _sliders(self, desk: Desk) -> None:
+        self._follow(desk)
         light, chroma, hue = self._lch
         rows = (
             ("Lightness", light, "How light the colour looks (OkLCH)"),
@@ -62,8 +84,7 @@ class ColourPanel:
             changed, new_value = w.gradient_slider(name, max(0.0, min(1.0, value)), stops, f"{name}: {hint}")
             if changed:
                 parts[i] = new_value
-                self._lch = parts[0], parts[1] * MOST_CHROMA, parts[2] * 360
-                desk.hand.colour = self._rgb = from_oklch(*self._lch)
+                self._pick(desk, (parts[0], parts[1] * MOST_CHROMA, parts[2] * 360))
 
     def _pair(self, desk: Desk) -> None:
         height = imgui.get_frame_height()

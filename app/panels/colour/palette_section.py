@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
+from app.desk.holding.palette_making import ask_palette_of_view
 from app.desk.holding.palette_shelf import palette_to_write, show_palette, shown_palette
 from app.panels.controls import widgets as w
 from engine.files.swatches.colour_list import ColourList
@@ -18,7 +19,7 @@ _ROWS = 4.5  # of swatches in sight; half a row shows that there are more
 def draw_palette(desk: Desk) -> None:
     """Draws it into the present window."""
     gap, side = 3 * desk.scale, imgui.get_frame_height()
-    room = imgui.get_content_region_avail().x - 2 * (side + gap)
+    room = imgui.get_content_region_avail().x - 3 * (side + gap)
     options = [("", "No palette"), *((palette.name, palette.name) for palette in desk.known.palettes)]
     shown = shown_palette(desk)
     picked = w.choice("palette", shown.name if shown else "", options, "The palette that is shown here", room)
@@ -28,11 +29,32 @@ def draw_palette(desk: Desk) -> None:
     if w.icon_button("bring palette", icons.FOLDER, "Bring in a palette: .gpl, .aco, .ase or .kpl", size=side):
         desk.asked.show("palette from")
     imgui.same_line(0, gap)
+    if w.icon_button("make palette", icons.IMAGE, "Make a palette of the colours of a picture", size=side):
+        imgui.open_popup("make palette of")
+    _making(desk)
+    imgui.same_line(0, gap)
     hint = "Write this palette as .gpl, or the colours painted with where none is shown"
     if w.icon_button("write palette", icons.DISK, hint, size=side, enabled=bool(palette_to_write(desk).colours)):
         desk.asked.show("palette to")
     if shown is not None:
         _swatches(desk, shown)
+
+
+def _making(desk: Desk) -> None:
+    """Draws what a palette can be made of."""
+    if not imgui.begin_popup("make palette of"):
+        return
+    if imgui.selectable("A picture file…", False)[0]:
+        desk.asked.show("palette of picture")
+    w.named("A picture file…")
+    w.tooltip("A PNG, JPEG or TIFF: up to 24 colours that stand for all of it")
+    imgui.begin_disabled(not desk.known.ready)
+    if imgui.selectable("What is in view", False)[0]:
+        ask_palette_of_view(desk)
+    w.named("What is in view")
+    w.tooltip("The colours of the painting that the canvas shows now, with its paper")
+    imgui.end_disabled()
+    imgui.end_popup()
 
 
 def _swatches(desk: Desk, palette: ColourList) -> None:

@@ -258,6 +258,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "bring in": BringIn,
     "texture doctor": DoctorDialog,
     "palette from": file_browser.choosing_palette,
+    "palette of picture": file_browser.choosing_palette_picture,
     "palette to": file_browser.writing_palette,
     "share brush": file_browser.sharing_brush,
     "brush from": file_browser.choosing_brush,

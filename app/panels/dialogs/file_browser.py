@@ -19,6 +19,7 @@ from app.desk.examples import example_work
 from app.desk.exporting.export_areas import export_wish
 from app.desk.exporting.export_state import EXPORT_FORMATS
 from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
+from app.desk.holding.palette_making import palette_of_file
 from app.desk.holding.palette_shelf import PALETTES, WritePalette, bring_palette, palette_to_write
 from app.desk.keys.kept_keys import GiveKeys
 from app.desk.outside import bringing, pictured
@@ -292,6 +293,11 @@ def choosing_brush(desk: Desk) -> SystemDialog | Browser:
 def choosing_palette(desk: Desk) -> SystemDialog | Browser:
     """Asks for a palette."""
     return _chooser(desk, "Bring in a palette", PALETTES, bring_palette)
+
+
+def choosing_palette_picture(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a picture to make a palette of."""
+    return _chooser(desk, "Make a palette of a picture", _PICTURES, palette_of_file)
 
 
 def writing_palette(desk: Desk) -> SystemDialog | Browser:
