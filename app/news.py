@@ -58,7 +58,7 @@ def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
     if desk.message.of not in (None, desk.known.active):
         desk.message = Message()
     desk.masks.follow(desk.post, desk.known.active)
-    desk.stack.follow(desk.post, scene.layers, scene.serial)
+    desk.stack.follow(desk.post, scene.layers, scene.serial, scene.active)
     recovery_work.offer(desk, scene)
     follow_opened(desk)
     keep_colours(desk)

@@ -12,6 +12,7 @@ from app.desk.known import moved_by
 from app.desk.moving.floating import laying, lift, set_part_down, takes_part
 from app.desk.moving.move_state import TOOL
 from app.desk.moving.poses import shifted
+from app.desk.stack.many_rows import chosen_rows, free_group_name, group_rows, post_together
 from engine.canvas.placing.pose import UNMOVED
 from engine.checks.roles import AS_HEIGHT, REFERENCE
 from engine.painting import commands as c
@@ -24,8 +25,8 @@ def _hidden(desk: Desk) -> bool:
     return ready(desk) and bool(desk.known.hiding)
 
 
-def _add(kind: str, stem: str) -> Callable[[Desk], None]:
-    return lambda desk: desk.post(Do(c.AddLayer(next_layer_name(desk, stem), kind=kind)))
+def _add(desk: Desk) -> None:
+    desk.post(Do(c.AddLayer(next_layer_name(desk, "Layer"))))
 
 
 def _duplicate(desk: Desk) -> None:
@@ -115,7 +116,14 @@ def _toggle_height(desk: Desk) -> None:
 
 
 def _remove(desk: Desk) -> None:
-    desk.post(Do(c.RemoveLayer(active(desk))))
+    post_together(desk, [c.RemoveLayer(row.name) for row in chosen_rows(desk)])
+
+
+def _add_group(desk: Desk) -> None:
+    if desk.stack.many:
+        group_rows(desk, free_group_name(desk))
+    else:
+        desk.post(Do(c.AddLayer(free_group_name(desk), kind="group")))
 
 
 def _show(desk: Desk) -> None:
@@ -152,8 +160,11 @@ def _is_shown_only(desk: Desk) -> bool:
 
 _NUDGE = "Move the layer by a pixel of what you see"
 LAYER_ACTIONS: dict[str, A] = {
-    "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add("layer", "Layer"), ready),
-    "add_group": A("New group", "Layer", ("Ctrl+G",), "Add a group above", _add("group", "Group"), ready),
+    "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add, ready),
+    "add_group": A(
+        "New group", "Layer", ("Ctrl+G",), "Add a group above; around the layers that are chosen, where several are",
+        _add_group, ready,
+    ),
     "duplicate": A("Duplicate", "Layer", ("Ctrl+J",), "Copy the layer, or what is selected of it", _duplicate, chosen),
     "cut_out": A(
         "Cut to a new layer", "Layer", ("Ctrl+Shift+J",), "Lay what is selected on a layer of its own", _cut_out,
@@ -192,7 +203,7 @@ LAYER_ACTIONS: dict[str, A] = {
     "show_all": A("Show all", "Layer", (), "Look at the whole painting again", _show_all, _sees_one),
     "raise": A("Move up", "Layer/Move", ("Ctrl+PageUp",), "Move the layer up", _moves(1), chosen),
     "lower": A("Move down", "Layer/Move", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), chosen),
-    "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer", _remove, chosen),
+    "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer, or all that are chosen", _remove, chosen),
     "left": A("Nudge left", "Layer/Move", ("Left",), _NUDGE, _nudges(-1, 0), chosen),
     "right": A("Nudge right", "Layer/Move", ("Right",), _NUDGE, _nudges(1, 0), chosen),
     "up": A("Nudge up", "Layer/Move", ("Up",), _NUDGE, _nudges(0, -1), chosen),

@@ -107,12 +107,13 @@ class Export:
 class Do:
     """A command, carried out in the order of posting; `time`: of posting, seconds since 1970; `over_symmetry`: undo and
     redo do not count steps that only set the symmetry; `lent`: the picture that a definition names by its sha, where it
-    was read already."""
+    was read already; `together`: commands in a row of one number are undone as one, 0 is none."""
 
     command: Command
     time: float | None = None
     over_symmetry: bool = False
     lent: ImageSource | None = None
+    together: int = 0
 
 
 @dataclass(frozen=True, slots=True)

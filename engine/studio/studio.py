@@ -130,7 +130,7 @@ class Studio(Owned):
             Work(lambda: int(easel.live is None and collecting.due()), collecting.pass_over),
         )
         self._handlers: q.Handlers = {
-            q.Do: lambda r: travels.carry_out(timed(r.command, r.time), r.over_symmetry, r.lent),
+            q.Do: lambda r: travels.carry_out(timed(r.command, r.time), r.over_symmetry, r.lent, r.together),
             q.Begin: self._begin,
             q.Points: lambda r: easel.extend(rounded(r.points)),
             q.Finish: lambda r: easel.finish(),

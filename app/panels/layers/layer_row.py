@@ -7,13 +7,14 @@ from imgui_bundle import ImVec2, imgui
 from app import icons
 from app.actions import actions
 from app.desk.desk import Desk
+from app.desk.stack.many_rows import chosen_rows, post_together
 from app.panels.controls import widgets as w
 from engine.painting import commands as c
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow
 from engine.studio.stack.stack_requests import layer_picture
 
-_EYE = "Show or hide\nAlt: show only this, and all again"
+_EYE = "Show or hide, with all that are chosen along with it\nAlt: show only this, and all again"
 _WIDE = 1.4  # of a picture's height
 _MORE = (  # actions, by groups
     ("show_only", "duplicate", "show_again", "merge_down", "merge_group", "clear", "adjust"),
@@ -34,7 +35,8 @@ def eye(desk: Desk, row: LayerRow) -> None:
     if pressed and (imgui.get_io().key_alt or row.name == only):
         desk.stack.toggle(desk.post, row.name)
     elif pressed:
-        desk.post(Do(c.SetLayer(row.name, visible=not row.visible)))
+        together = chosen_rows(desk) if row.name in desk.stack.many else [row]
+        post_together(desk, [c.SetLayer(one.name, visible=not row.visible) for one in together])
 
 
 def small_picture(desk: Desk, row: LayerRow) -> None:
@@ -71,6 +73,8 @@ def menu(desk: Desk, row: LayerRow) -> bool:
 
 def _items(desk: Desk, row: LayerRow) -> bool:
     if imgui.is_window_appearing() and desk.known.scene is not None and desk.known.scene.active != row.name:
+        if row.name not in desk.stack.many:
+            desk.stack.many = set()
         desk.post(Do(c.SelectLayer(row.name)))
     rename = imgui.menu_item_simple("Rename")
     w.named("Rename")

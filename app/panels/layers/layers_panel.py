@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
+from app.desk.stack.many_rows import chosen_rows, dropped_rows, post_together, reach_row, toggle_row
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 from app.panels.layers import layer_row, mask_picture
@@ -16,6 +17,9 @@ from engine.studio.requests import Do
 from engine.studio.results import LayerRow, Ready
 
 _PAYLOAD = "layer"
+_MOUSE = "Drag to reorder, double-click to rename, right-click for more\nCtrl or Shift: choose several"
+_FIELD = 7.0  # of a letter: the width of the search field
+_ALSO = 0.6  # how strongly a row is lit that is chosen along with the active one
 _USUAL = "src-over", "Normal"  # the blend mode of a new layer, and its title
 
 
@@ -26,6 +30,7 @@ class LayersPanel:
         self._editing: str | None = None
         self._text = ""
         self._focus = False
+        self._find = ""
         self._folded: set[str] = set()
         self._sliders = LayerSliders()
         self._active: str | None = None
@@ -33,14 +38,30 @@ class LayersPanel:
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
-        if not w.section("Layers"):
+        corner, room = imgui.get_cursor_pos(), imgui.get_content_region_avail().x
+        if not w.section("Layers", shared=True):
             return
+        self._search(corner.x + room)
         rows = desk.known.scene.layers if desk.known.scene else ()
         imgui.begin_disabled(not desk.known.ready)
         self._settings(desk, desk.known.active)
         self._list(desk, rows)
         self._buttons(desk)
         imgui.end_disabled()
+
+    def _search(self, right: float) -> None:
+        """Draws the field at the right end of the header just drawn."""
+        wide, below = imgui.get_font_size() * _FIELD, imgui.get_cursor_pos()
+        imgui.same_line(right - wide)
+        imgui.set_cursor_pos_y(imgui.get_cursor_pos_y() - 2)
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(6, 1) * imgui.get_style().font_scale_dpi)
+        imgui.set_next_item_width(wide)
+        flags = imgui.InputTextFlags_.escape_clears_all
+        _, self._find = imgui.input_text_with_hint("##find layer", "Find", self._find, flags)
+        imgui.pop_style_var()
+        w.named("find layer")
+        w.tooltip("Only layers with this in their names; Escape shows all again", beside=True)
+        imgui.set_cursor_pos(below)
 
     def _settings(self, desk: Desk, row: LayerRow | None) -> None:
         imgui.begin_disabled(row is None)
@@ -112,7 +133,9 @@ class LayersPanel:
             inside = parents.get(inside)
 
     def _unfolded(self, rows: tuple[LayerRow, ...]) -> list[LayerRow]:
-        """Returns the rows that no folded group holds."""
+        """Returns the rows that no folded group holds, or those with the names that are searched."""
+        if self._find.strip():
+            return [row for row in rows if self._find.strip().lower() in row.name.lower()]
         if not self._folded:
             return list(rows)
         found: list[LayerRow] = []
@@ -166,15 +189,13 @@ class LayersPanel:
         imgui.push_style_var(imgui.StyleVar_.selectable_text_align, ImVec2(0.0, 0.5))
         flags = imgui.SelectableFlags_.allow_double_click
         shown = ended(row.name, imgui.get_content_region_avail().x - imgui.calc_text_size(signs).x)
-        if imgui.selectable(f"{shown}{signs}###name", active, flags, ImVec2(0, imgui.get_frame_height()))[0]:
-            if imgui.is_mouse_double_clicked(0):
-                self._editing, self._text, self._focus = row.name, row.name, True
-            elif not active:
-                desk.post(Do(c.SelectLayer(row.name)))
-            elif desk.masks.on(row):
-                desk.masks.end(desk.post)
+        imgui.push_style_color(imgui.Col_.header, theme.vec(theme.ACCENT_SOFT, 1.0 if active else _ALSO))
+        if imgui.selectable(
+            f"{shown}{signs}###name", active or row.name in desk.stack.many, flags, ImVec2(0, imgui.get_frame_height())
+        )[0]:
+            self._clicked(desk, row, active)
         imgui.pop_style_var()
-        imgui.pop_style_color()
+        imgui.pop_style_color(2)
         w.named(row.name)
         if layer_row.menu(desk, row):
             self._editing, self._text, self._focus = row.name, row.name, True
@@ -185,7 +206,20 @@ class LayersPanel:
         about += "Masked  " if row.masked else ""
         about += "Reference: not exported  " if row.reference else ""
         about += "Height of the land: not exported  " if row.height else ""
-        w.tooltip(f"{whole}{about}{blend}\nDrag to reorder, double-click to rename, right-click for more", beside=True)
+        w.tooltip(f"{whole}{about}{blend}\n{_MOUSE}", beside=True)
+
+    def _clicked(self, desk: Desk, row: LayerRow, active: bool) -> None:
+        if imgui.is_mouse_double_clicked(0):
+            self._editing, self._text, self._focus = row.name, row.name, True
+        elif imgui.get_io().key_ctrl:
+            toggle_row(desk, row)
+        elif imgui.get_io().key_shift:
+            reach_row(desk, self._unfolded(desk.known.scene.layers if desk.known.scene else ()), row)
+        elif not active or desk.stack.many:
+            desk.stack.many = set()
+            desk.post(Do(c.SelectLayer(row.name)))
+        elif desk.masks.on(row):
+            desk.masks.end(desk.post)
 
     def _name_field(self, desk: Desk, row: LayerRow) -> None:
         imgui.set_next_item_width(-1)
@@ -205,16 +239,18 @@ class LayersPanel:
         if imgui.begin_drag_drop_source():
             names = [r.name for r in desk.known.scene.layers] if desk.known.scene else []
             imgui.set_drag_drop_payload_py_id(_PAYLOAD, names.index(row.name))
-            imgui.text_unformatted(row.name)
+            others = len(chosen_rows(desk)) - 1 if row.name in desk.stack.many else 0
+            imgui.text_unformatted(f"{row.name} and {others} more" if others else row.name)
             imgui.end_drag_drop_source()
         if imgui.begin_drag_drop_target():
             top, bottom = imgui.get_item_rect_min().y, imgui.get_item_rect_max().y
             where = (imgui.get_io().mouse_pos.y - top) / max(1.0, bottom - top)
             payload = imgui.accept_drag_drop_payload_py_id(_PAYLOAD)
             if payload is not None and desk.known.scene:
-                command = dropped(desk.known.scene.layers, desk.known.scene.layers[int(payload.data_id)], row, where)
-                if command:
-                    desk.post(Do(command))
+                rows = desk.known.scene.layers
+                moved = rows[int(payload.data_id)]
+                together = chosen_rows(desk) if moved.name in desk.stack.many else [moved]
+                post_together(desk, dropped_rows(rows, together, row, where))
             imgui.end_drag_drop_target()
 
     def _buttons(self, desk: Desk) -> None:
@@ -243,25 +279,3 @@ class LayersPanel:
 def blend_titles(tables: Ready) -> list[tuple[str, str]]:
     """Returns the name and the title of each blend mode; before the engine is there, of the usual one alone."""
     return [(name, title) for name, title, _ in tables.blends] or [_USUAL]
-
-
-def dropped(rows: tuple[LayerRow, ...], moved: LayerRow, onto: LayerRow, where: float) -> c.MoveLayer | None:
-    """The command for a row let go over another, `where` 0 (its top) to 1; None where it cannot go."""
-    if moved.name == onto.name or _within(rows, onto, moved):
-        return None
-    if onto.group and 0.25 < where < 0.75:
-        inside = [r for r in rows if r.parent == onto.name and r.name != moved.name]
-        return c.MoveLayer(moved.name, len(inside), onto.name)
-    position = onto.position - (1 if moved.parent == onto.parent and moved.position < onto.position else 0)
-    return c.MoveLayer(moved.name, position + (1 if where < 0.5 else 0), onto.parent)
-
-
-def _within(rows: tuple[LayerRow, ...], row: LayerRow, group: LayerRow) -> bool:
-    """Tells whether a row lies somewhere inside a group."""
-    parents = {r.name: r.parent for r in rows}
-    parent = row.parent
-    while parent is not None:
-        if parent == group.name:
-            return True
-        parent = parents.get(parent)
-    return False

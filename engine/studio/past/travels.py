@@ -15,6 +15,7 @@ from engine.painting import commands as c
 from engine.painting.difference import areas
 from engine.painting.value import Painting
 from engine.studio.past import past_records as p
+from engine.studio.past.joined_steps import JoinedSteps
 from engine.studio.past.layer_steps import layer_after
 from engine.studio.past.rebuilding import PLAYED_AT_ONCE, Rebuilding
 from engine.studio.past.symmetry_steps import steps_over_symmetry
@@ -38,6 +39,7 @@ class Travels(Owned):
 
     def __init__(self, trail: Trail) -> None:
         self._trail, self._easel = trail, trail.easel
+        self._joined = JoinedSteps()
         self._way: _Way | None = None
         self._seen: int | None = None
         self.handlers: Handlers = {
@@ -61,15 +63,19 @@ class Travels(Owned):
         """Counts the pieces of open work."""
         return int(self._way is not None)
 
-    def carry_out(self, command: c.Command, over_symmetry: bool = False, lent: ImageSource | None = None) -> None:
+    def carry_out(
+        self, command: c.Command, over_symmetry: bool = False, lent: ImageSource | None = None, together: int = 0
+    ) -> None:
         """Does a command, as the easel does; undo and redo beyond what the history holds are a jump.  `over_symmetry`:
         by hand, for which they do not count steps that only set the symmetry, and the layer that a step chose, or left,
-        is chosen again."""
+        is chosen again.  `together`: see `Do`."""
         session = self._easel.session
         if over_symmetry and isinstance(command, c.Undo | c.Redo):
             if self._easel.live is not None:
                 self._easel.finish()
-            command = replace(command, count=steps_over_symmetry(session, isinstance(command, c.Undo)))
+            back = isinstance(command, c.Undo)
+            count = self._joined.reach(session, back, steps_over_symmetry(session, back))
+            command = replace(command, count=count)
         if isinstance(command, c.Undo | c.Redo) and session.leapt and self._easel.live is None:
             self._trail.follow()
             by = -command.count if isinstance(command, c.Undo) else command.count
@@ -78,7 +84,10 @@ class Travels(Owned):
                 self._jump(to)
                 return
         chosen = layer_after(session, command) if over_symmetry and isinstance(command, c.Undo | c.Redo) else None
+        logged = len(session.log)
         self._easel.carry_out(command, lent)
+        if together and self._easel.session is session:
+            self._joined.note(session, logged, together)
         painting = session.painting
         if chosen is not None and chosen != painting.active and layers.has(painting.root, chosen):
             self._easel.carry_out(c.SelectLayer(chosen))
