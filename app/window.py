@@ -39,7 +39,7 @@ from app.desk.recovery.engine_thread import EngineThread, Start
 from app.desk.recovery.recovery_work import FindCards
 from app.desk.remembering.kept_views import ReadViews, ViewsWatched
 from app.desk.remembering.kept_window import Remembering, read_window, restore_window
-from app.desk.sharing.preset_work import BRUSH, bring_preset
+from app.desk.sharing.preset_work import BRUSHES, bring_preset
 from app.desk.stock import TakeStock
 from app.drawing import Drawing
 from app.faults.fault_guard import FaultGuard
@@ -168,7 +168,7 @@ class Window:
             return False
         with self._guard.spare("on a drop"):
             if not self.layout.strip.dropped(desk, path, *self.pointers.at()):
-                if path.suffix.lower() == BRUSH:
+                if path.suffix.lower() in BRUSHES:
                     bring_preset(desk, path)
                 elif path.suffix.lower() in PALETTES:
                     bring_palette(desk, path)

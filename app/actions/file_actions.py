@@ -41,7 +41,7 @@ FILE_ACTIONS: dict[str, A] = {
     "new": A("New…", "File", ("Ctrl+N",), "Start a new painting", asks_guarded("new"), ready),
     "open": A("Open…", "File", ("Ctrl+O",), "Open a painting, a picture or a recording", asks_guarded("open"), ready),
     "bring": A("Bring in a picture…", "File", (), "As a layer, group, texture or example", asks("bring from"), ready),
-    "bring_brush": A("Bring in a brush…", "File", (), "A shared one (.inkbrush)", asks("brush from"), ready),
+    "bring_brush": A("Bring in a brush…", "File", (), "Shared, or another program's", asks("brush from"), ready),
     "save": A("Save", "File", ("Ctrl+S",), "Save the painting; you can go on painting meanwhile", Desk.save, ready),
     "save_as": A("Save as…", "File", ("Ctrl+Shift+S",), "Save under another name", asks("save as"), ready),
     "earlier": A("Earlier versions…", "File", (), "What the last saves replaced", asks("earlier"), _has_file),

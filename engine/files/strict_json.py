@@ -26,8 +26,11 @@ _LONE = re.compile("[\ud800-\udfff]")
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ufffe\uffff]")
 
 
-def loads(data: bytes | str, cap: int = BYTES_CAP) -> Any:
-    """Returns the value that `data`, one JSON document, holds.  FieldError tells the column where it is wrong."""
+def loads(data: bytes | str, cap: int = BYTES_CAP, twice: bool = False) -> Any:
+    """Returns the value that `data`, one JSON document, holds.  FieldError tells the column where it is wrong.
+
+    `twice`: a member may be given again, and the last counts, as other programs that write such files have it.
+    """
     if len(data) > cap:
         raise FieldError("", f"more than {cap >> 20} MiB", "less")
     try:
@@ -35,7 +38,7 @@ def loads(data: bytes | str, cap: int = BYTES_CAP) -> Any:
     except UnicodeDecodeError as error:
         raise FieldError(f"byte {error.start + 1}", "bytes that are not UTF-8", "UTF-8 text") from None
     try:
-        value = _DECODER.decode(text)
+        value = (_PATIENT if twice else _DECODER).decode(text)
     except json.JSONDecodeError as error:
         raise FieldError(_place(text, error.pos), _excerpt(text, error.pos), f"JSON ({error.msg})") from None
     except RecursionError:
@@ -86,6 +89,7 @@ def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 _DECODER = json.JSONDecoder(parse_constant=_constant, parse_float=_finite, object_pairs_hook=_members)
+_PATIENT = json.JSONDecoder(parse_constant=_constant, parse_float=_finite)
 
 
 class _Missing:

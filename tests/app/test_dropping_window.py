@@ -174,3 +174,18 @@ def test_a_photograph_that_is_dropped_anywhere_loses_no_frame(program, photograp
             if place in ("lab", "canvas"):
                 app.keys("Escape")  # it is asked what is to become of it
     until(lambda: len(list((app.folder / "data" / "inkfall" / "examples").glob("*.toml"))) >= 1)
+
+
+def test_another_programs_brush_dropped_on_the_canvas_is_painted_with(program, tmp_path):
+    (tmp_path / "Soft reed.myb").write_text(
+        '{"version": 3, "settings": {"radius_logarithmic": {"base_value": 3.5, "inputs": {}},'
+        ' "opaque": {"base_value": 1.0, "inputs": {}}, "smudge": {"base_value": 0.5, "inputs": {}}}}'
+    )
+    app = program()
+    app.settled()
+    Drag(app.display, window_of(app), tmp_path / "Soft reed.myb").drop(*app.at("canvas"))
+    app.box("Brought in the brush “Soft reed”, without smudging")
+    assert (app.folder / "config" / "inkfall" / "brushes" / "soft-reed.json").is_file()
+    before = app.canvas()
+    app.stroke((500, 300), (600, 310), (700, 320))
+    assert (app.canvas_unlike(before)[230:280, 270:400] < 60).mean() > 0.1

@@ -63,7 +63,14 @@ def read_bundle(path: Path, folder: Path, taken: set[str]) -> Preset:
         if not isinstance(data, dict):
             raise FileError(path.name, f"{_TOLD} holds no object; a brush was expected")
         files = {name: archive.read(name, _FILE_CAP) for name in _named(data, archive)}
-    preset = presets.preset_of({**data, "group": data.get("group", presets.OWN)}, path.stem, folder)
+    return keep_brush(data, files, path.stem, folder, taken)
+
+
+def keep_brush(data: dict[str, object], files: dict[str, bytes], name: str, folder: Path, taken: set[str]) -> Preset:
+    """Writes the brush that an object tells, called `name` if it has no name of its own, and the pictures that it
+    names into a folder of presets, under a name that is not `taken`; returns it.  FieldError, FileError or OSError;
+    nothing is left of it then."""
+    preset = presets.preset_of({**data, "group": data.get("group", presets.OWN)}, name, folder)
     name = presets.free_among(preset.name, taken)
     beside = folder / f"{presets.stem_of(name)}-files"
     folder.mkdir(parents=True, exist_ok=True)

@@ -11,8 +11,10 @@ from app.desk.hand import mixed_now
 from app.desk.holding.kept_desk import change_kept
 from app.desk.holding.taking import take_preset
 from app.desk.presets import Preset
+from app.desk.sharing.strangers import STRANGERS, BringStrangers
 
 BRUSH = ".inkbrush"  # the ending of a shared brush
+BRUSHES = (BRUSH, *STRANGERS)  # of all that can be brought in
 
 
 def _without(stay: tuple[str, ...]) -> str:
@@ -140,8 +142,10 @@ class BringPreset(FileWork):
 
 
 def bring_preset(desk: Desk, path: Path) -> None:
-    """Has a shared brush taken in."""
-    desk.work(BringPreset(path, frozenset(preset.name for preset in desk.known.presets)))
+    """Has a shared brush taken in, or those of another program's file."""
+    taken = frozenset(preset.name for preset in desk.known.presets)
+    work = BringStrangers if path.suffix.lower() in STRANGERS else BringPreset
+    desk.work(work(path, taken))
 
 
 def held_preset(desk: Desk) -> Preset | None:

@@ -26,7 +26,7 @@ from app.desk.outside import bringing, pictured
 from app.desk.outside.opened_files import OF_PAINTINGS
 from app.desk.presets import stem_of
 from app.desk.previews import FileRow
-from app.desk.sharing.preset_work import BRUSH, SharePreset, bring_preset
+from app.desk.sharing.preset_work import BRUSH, BRUSHES, SharePreset, bring_preset
 from app.desk.solids.cube_work import CUBES, bring_cube
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
@@ -286,8 +286,8 @@ def sharing_brush(desk: Desk) -> SystemDialog | Browser:
 
 
 def choosing_brush(desk: Desk) -> SystemDialog | Browser:
-    """Asks for a brush that somebody shared."""
-    return _chooser(desk, "Bring in a brush", (BRUSH,), bring_preset)
+    """Asks for a brush that somebody shared, or another program's."""
+    return _chooser(desk, "Bring in a brush", BRUSHES, bring_preset)
 
 
 def choosing_palette(desk: Desk) -> SystemDialog | Browser:

@@ -8,8 +8,8 @@ CMYK without a profile, Lab under D50.
 from __future__ import annotations
 
 import colorsys
-import struct
 
+from engine.files.big_endian import BigEndian
 from engine.files.fault import FileError
 from engine.files.swatches.colour_list import MOST_COLOURS, ColourList, NamedColour, plain_name
 
@@ -20,61 +20,29 @@ _TO_SRGB = (  # linear, from XYZ under D50, by Bradford
     (-0.9787684, 1.9161415, 0.0334540),
     (0.0719453, -0.2289914, 1.4052427),
 )
+_IN = "a colour"  # what the file may end in
 _GROUP, _GROUP_END, _COLOUR = 0xC001, 0xC002, 0x0001
-
-
-class _Reader:
-    """Takes one value after another; FileError where the file ends inside one."""
-
-    def __init__(self, data: bytes, file: str) -> None:
-        self._data, self._file, self.at = data, file, 0
-
-    def take(self, form: str) -> tuple[int | float | bytes, ...]:
-        """Returns the values of a `struct` form, big-endian."""
-        size = struct.calcsize(f">{form}")
-        if self.at + size > len(self._data):
-            raise FileError(self._file, f"byte {self.at}: the file ends inside a colour")
-        found = struct.unpack_from(f">{form}", self._data, self.at)
-        self.at += size
-        return found
-
-    def number(self, form: str) -> int:
-        """Returns one whole number."""
-        return int(self.take(form)[0])
-
-    def text(self, units: int) -> str:
-        """Returns a text of so many units of UTF-16."""
-        if self.at + 2 * units > len(self._data):
-            raise FileError(self._file, f"byte {self.at}: the file ends inside a name")
-        found = self._data[self.at : self.at + 2 * units].decode("utf-16-be", "replace")
-        self.at += 2 * units
-        return plain_name(found.split("\0")[0])
-
-    @property
-    def left(self) -> int:
-        """Returns how many bytes follow."""
-        return len(self._data) - self.at
 
 
 def read_aco(data: bytes, file: str) -> ColourList:
     """Returns the palette; names where the second version of it is there, too."""
-    reader = _Reader(data, file)
+    reader = BigEndian(data, file)
     colours = _aco_part(reader, file, 1)
     if reader.left >= 4:
         colours = _aco_part(reader, file, 2)
     return ColourList("", tuple(colours))
 
 
-def _aco_part(reader: _Reader, file: str, wanted: int) -> list[NamedColour]:
-    version, count = reader.number("H"), reader.number("H")
+def _aco_part(reader: BigEndian, file: str, wanted: int) -> list[NamedColour]:
+    version, count = reader.number("H", _IN), reader.number("H", _IN)
     if version != wanted and not (wanted == 1 and version == 2):
         raise FileError(file, f"found version {version} of its colours, expected {wanted}")
     if count > MOST_COLOURS:
         raise FileError(file, f"found {count} colours, expected at most {MOST_COLOURS}")
     colours = []
     for _ in range(count):
-        space, *values = (int(value) for value in reader.take("5H"))
-        name = reader.text(reader.number("I")) if version == 2 else ""
+        space, *values = (int(value) for value in reader.take("5H", _IN))
+        name = plain_name(reader.text(reader.number("I", _IN), "a name")) if version == 2 else ""
         rgb = _aco_colour(space, values)
         if rgb is not None:
             colours.append(NamedColour(rgb, name))
@@ -102,20 +70,20 @@ def _aco_colour(space: int, values: list[int]) -> _RGB | None:
 
 def read_ase(data: bytes, file: str) -> ColourList:
     """Returns the palette, its groups one after another."""
-    reader = _Reader(data, file)
-    magic, major, _minor = reader.take("4sHH")
+    reader = BigEndian(data, file)
+    magic, major, _minor = reader.take("4sHH", _IN)
     if magic != b"ASEF" or major != 1:
         raise FileError(file, "found no ASEF of version 1 at its beginning")
     colours: list[NamedColour] = []
-    for _ in range(reader.number("I")):
-        kind, length = reader.number("H"), reader.number("I")
+    for _ in range(reader.number("I", _IN)):
+        kind, length = reader.number("H", _IN), reader.number("I", _IN)
         end = reader.at + length
         if length > reader.left:
             raise FileError(file, f"byte {reader.at}: a block of {length} bytes, {reader.left} are left")
         if kind == _COLOUR:
             if len(colours) == MOST_COLOURS:
                 raise FileError(file, f"more than {MOST_COLOURS} colours")
-            name = reader.text(reader.number("H"))
+            name = plain_name(reader.text(reader.number("H", _IN), "a name"))
             colours.append(NamedColour(_ase_colour(reader, file), name))
         elif kind not in (_GROUP, _GROUP_END):
             raise FileError(file, f"byte {reader.at}: found a block of kind {kind:#x}, expected a colour or a group")
@@ -125,12 +93,12 @@ def read_ase(data: bytes, file: str) -> ColourList:
     return ColourList("", tuple(colours))
 
 
-def _ase_colour(reader: _Reader, file: str) -> _RGB:
-    model = reader.take("4s")[0]
+def _ase_colour(reader: BigEndian, file: str) -> _RGB:
+    model = reader.take("4s", _IN)[0]
     count = {b"RGB ": 3, b"CMYK": 4, b"LAB ": 3, b"Gray": 1}.get(bytes(model) if isinstance(model, bytes) else b"")
     if count is None:
         raise FileError(file, f"byte {reader.at}: found a colour model {model!r}, expected RGB, CMYK, LAB or Gray")
-    values = [float(value) for value in reader.take(f"{count}f")]
+    values = [float(value) for value in reader.take(f"{count}f", _IN)]
     if not all(abs(value) < 1e4 for value in values):
         raise FileError(file, f"byte {reader.at}: found a colour that is no number")
     if count == 4:
