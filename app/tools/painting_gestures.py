@@ -17,6 +17,7 @@ from app.desk.guides import symmetry
 from app.desk.guides.snapping import Snapper
 from app.desk.guides.tile_seams import tell_seams
 from app.desk.holding.size_lock import follow_view
+from app.desk.land.land_relief import seen_brush
 from app.desk.moving.painted_through import Aimed, through
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
@@ -105,6 +106,7 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
     palette.provide(desk)
     follow_view(desk)
     level, brush = desk.stroke_brush(first.eraser)
+    brush = seen_brush(desk, brush)
     if layer is not None and layer.wrap is not None:
         tell_seams(desk, layer.wrap, level, brush)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)

@@ -12,7 +12,7 @@ from engine.light.light import BY_IMPASTO
 
 _THICK, _HIGH = 16.0, 64.0  # px of the screen
 _KINDS = (
-    ("paint", "By lightness", "Light paint makes high land"),
+    ("paint", "By lightness", "Light paint makes high land; in the view of the land it heaps, and dark paint carves"),
     (AUTO, "Heaps", "Heaps a height of its own, of the same shape at any depth; below 0 it carves"),
 )
 
