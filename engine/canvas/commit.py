@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     _Editor = MapMutation[tuple[int, int], Record] | PageEditor[Record]
 
 Keeps = dict[tuple[int, int], Lasting]
+Lessen = Callable[[Iterable[Record | None]], None]
 _AT_ONCE = 224 << 20  # bytes of the planes of an edit's bounds up to which it is worked on as one rectangle
 _CACHE_PART = 4  # but no more than such a part of what the cache may hold: several times as much comes and goes
 _LEAST_AT_ONCE = 48 << 20
@@ -43,6 +44,10 @@ _SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up b
 # ink lies smaller ones, one level up at least
 _MOST_WAITING = 32  # strokes whose attenuation may wait: beyond, reading a fine tile would take too long
 _MARGIN = 4  # pixels around a square that its residuals can see, at the coarsest of its levels
+
+
+def _as_they_are(records: Iterable[Record | None]) -> None:
+    """Leaves records as they are."""
 
 
 def preview(pyramid: Pyramid, edit: Edit, rect: Rect, cache: TileCache | None = None) -> Planes:
@@ -58,8 +63,9 @@ def preview(pyramid: Pyramid, edit: Edit, rect: Rect, cache: TileCache | None = 
     return out
 
 
-def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyramid:
-    """Returns the pyramid after an edit; the same object when the edit changes no pixel at any level."""
+def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None, lessen: Lessen = _as_they_are) -> Pyramid:
+    """Returns the pyramid after an edit; the same object when the edit changes no pixel at any level.  `lessen`: what
+    is done to new records as soon as they are there, to hold them in fewer bytes."""
     keys = list(edit.tiles)
     if not keys:
         return pyramid
@@ -76,8 +82,9 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
             around = known_around(pyramid, edit.level, bounds, cache)
             levels = climbs(pyramid, edit.level, bounds, cache, around)
             risen = _climb_to_the_top(pyramid, painted, None, levels, records, cache)
+            lessen(records.values())
     else:
-        changed = _by_slabs(pyramid, edit, keys, records, keeps, cache)
+        changed = _by_slabs(pyramid, edit, keys, (records, keeps, lessen), cache)
     if not records and not keeps:
         return pyramid
     after = _with_records(pyramid, edit, changed, keeps or None, records)
@@ -140,12 +147,12 @@ def _by_slabs(
     pyramid: Pyramid,
     edit: Edit,
     keys: Sequence[TileKey],
-    records: NewRecords,
-    keeps: Keeps | None,
+    into: tuple[NewRecords, Keeps | None, Lessen],
     cache: TileCache | None,
 ) -> Rect:
     """Commits a large edit, square by square, so that memory does not grow with it.  Returns the bounds of what
     changed."""
+    records, keeps, lessen = into
     changed, tops, rects = Rect(0, 0, 0, 0), [], [key.rect for key in keys]
     squares = _slabs(rects, _SLAB_LEVELS)
     each = max(_bytes_of_each(len(_inks_near(pyramid, edit.level, square))) for square in squares)
@@ -156,7 +163,10 @@ def _by_slabs(
         if painted:
             changed = changed.union(_noted([patch for patch in painted if patch.key.rect.meets(slab)], keeps))
             levels = climbs(pyramid, edit.level, united(patch.at for patch in painted), cache)
-            tops += _climb_slab(pyramid, painted, None, levels, (slab, climb), records, cache)
+            found: NewRecords = {}
+            tops += _climb_slab(pyramid, painted, None, levels, (slab, climb), found, cache)
+            lessen(found.values())
+            records.update(found)
     while _bytes_of(tops) > _most(cache):
         tops = _higher(pyramid, tops, records, cache)
     if tops:

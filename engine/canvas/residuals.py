@@ -26,6 +26,7 @@ from engine.texture.planes import COLOURS, merged, plane_map, widened
 from engine.texture.record import Instance
 from engine.texture.sparse_planes import MANY, SparsePlanes
 
+_SHORT = 2  # bytes of int16
 NewRecords = dict[TileKey, Record | None]
 
 
@@ -145,7 +146,7 @@ def _record(pyramid: Pyramid, it: _Renewed) -> Record | _Told | None:
 def _dense_record(it: _Renewed, old: Record | None) -> Record | _Told | None:
     """As `_record`, where few inks lie in the tile."""
     inks = merged(it.new.with_inks(()).inks, it.above.with_inks(()).inks, () if old is None else old.inks)
-    if len(inks) < MANY and not it.textured(inks) and (old is None or old.data.dtype == np.int16):
+    if len(inks) < MANY and not it.textured(inks) and (old is None or old.held.itemsize == _SHORT):
         record = _renewed(it, old, inks)
         if record is not _Told.LARGE:
             return record

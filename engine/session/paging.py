@@ -17,6 +17,7 @@ from engine.session.coding.coded_records import CodedData, encode, put_away
 from engine.session.coding.coded_tiles import CodedTile, encode_tile
 from engine.session.coding.paged_records import put_page_away
 from engine.session.held_pyramids import pyramids
+from engine.texture.even_planes import EvenPlanes
 from engine.texture.sparse_planes import SparsePlanes
 
 _SMALL = 2 << 10  # bytes of data that are not worth it
@@ -78,7 +79,7 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
         for pyramid in held:
             for record in _records(pyramid, level):
                 old = record.depth <= pyramid.depth - _OF_LATE
-                plain = isinstance(record.held, np.ndarray | SparsePlanes)
+                plain = isinstance(record.held, np.ndarray | EvenPlanes | SparsePlanes)
                 worth = (late or old) and plain and record.held.nbytes >= _SMALL
                 yield encode(record, None) if worth else 0
     for pyramid in held:

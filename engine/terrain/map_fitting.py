@@ -57,8 +57,10 @@ def roughness_of(heights: np.ndarray) -> np.ndarray:
     half = np.concatenate([_halved(heights[top : top + _AT_ONCE]) for top in range(0, len(heights), _AT_ONCE)])
     if min(half.shape) < _SMALLEST:
         return np.zeros_like(half)
-    octave = half - _doubled(_halved(half), half.shape)
-    power, shapes = octave * octave, []
+    half -= _doubled(_halved(half), half.shape)  # the octave; in place, as large maps are
+    half *= half
+    power, shapes = half, []
+    del half
     for _ in range(_SPREAD):
         shapes.append(power.shape)
         power = _halved(power)

@@ -23,6 +23,7 @@ _SCALE, _KEYS, _NO_DATA = 33550, 34735, 42113  # tags of GeoTIFF, and of GDAL
 _MODEL, _PROJECTED, _GEOGRAPHIC, _UNITS, _METRE = 1024, 1, 2, 3076, 9001  # keys of GeoTIFF, and their values
 _A_DEGREE = 111_320.0  # metres from north to south
 _VOID = -32768  # what whole numbers below 0 say where nothing was measured
+_AT_ONCE = 1 << 8  # rows
 _BEYOND = 1e30  # floats from which on there is no height
 _ALONE = ("Y", "Z", "height", "R", "G", "B", "V", "A")  # the channel of an EXR that tells heights, by preference
 
@@ -65,7 +66,9 @@ def read_height_map(data: bytes, name: str) -> HeightMap:
     else:
         found = HeightMap(_of_picture(data, name))
     heights = found.heights
-    heights[~(np.abs(heights) < _BEYOND)] = np.nan  # NaN, infinity, and what stands for them
+    for top in range(0, len(heights), _AT_ONCE):
+        part = heights[top : top + _AT_ONCE]
+        part[~(np.abs(part) < _BEYOND)] = np.nan  # NaN, infinity, and what stands for them
     if found.voids == heights.size:
         raise FileError(name, "found no height in it, expected some")
     return found

@@ -18,6 +18,7 @@ from engine.canvas.store import Record
 from engine.keeping.recent import Recent
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import Rect
+from engine.texture.even_planes import EvenPlanes
 from engine.texture.planes import COLOURS, plane_map
 from engine.texture.record import Instance
 from engine.texture.sparse_planes import OfSheets, SparsePlanes
@@ -185,11 +186,11 @@ def encode(record: Record, other: Record | None) -> int:
             return 0
         record.exchange(smaller)
         return held.nbytes - smaller.nbytes
-    if not isinstance(held, np.ndarray | SparsePlanes):
+    if not isinstance(held, np.ndarray | EvenPlanes | SparsePlanes):
         return 0
     if other is not None and leads_to(other, record):
         other = None
-    if isinstance(held, np.ndarray):
+    if isinstance(held, np.ndarray | EvenPlanes):
         coded, taken = _coded(record, other), held.nbytes
     else:
         coded, taken = _coded_sheets(record, held, other)

@@ -17,6 +17,7 @@ from engine.keeping.recent import Recent
 from engine.keeping.spill import Spilled, spill
 from engine.numeric.address import Rect
 from engine.session.coding.coded_records import CodedData, CodedSheets, coded_alone
+from engine.texture.even_planes import EvenPlanes
 from engine.texture.record import Instance
 
 _READ = 24 << 20  # bytes of pages kept that were asked for
@@ -83,7 +84,9 @@ def put_page_away(page: Page[Record], newest: int) -> int:
 
 def _is_old(record: Record, newest: int) -> bool:
     held = record.held
-    plain = isinstance(held, np.ndarray | Filed) or (isinstance(held, CodedData) and not isinstance(held, CodedSheets))
+    plain = isinstance(held, np.ndarray | EvenPlanes | Filed) or (
+        isinstance(held, CodedData) and not isinstance(held, CodedSheets)
+    )
     return plain and record.depth <= newest
 
 

@@ -12,7 +12,7 @@ from engine.brush.stamp import Stamp
 from engine.canvas import layers
 from engine.canvas.commit import commit
 from engine.canvas.heaps.heaping import room_left
-from engine.canvas.heaps.heaps import MOST_HEAPED, NO_HEAP, exponent, share
+from engine.canvas.heaps.heaps import MOST_HEAPED, NO_HEAP, exponent, held_once, share
 from engine.canvas.layers import Layer
 from engine.canvas.node_checks import LayerError
 from engine.canvas.tile_cache import TileCache
@@ -125,7 +125,7 @@ def raised(painting: Painting, layer: Layer, level: int, rect: Rect, by: np.ndar
     unit = exponent(most, level)
     parts = snapped((by * share(1.0, level, unit)).astype(np.float32))
     heap = layer.heaps.get(unit)
-    heap = commit(NO_HEAP.branched() if heap is None else heap, _Raised(level, rect, parts))
+    heap = commit(NO_HEAP.branched() if heap is None else heap, _Raised(level, rect, parts), lessen=held_once)
     return replace(painting, root=layers.with_heaps(painting.root, layer.name, layer.heaps.set(unit, heap)))
 
 

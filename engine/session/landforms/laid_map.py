@@ -13,7 +13,7 @@ from engine.canvas import layers
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import evaluate
 from engine.canvas.heaps.heaping import amplitude_of, room_left
-from engine.canvas.heaps.heaps import MOST_HEAPED, MOST_INK, NO_HEAP, exponent, lies, share
+from engine.canvas.heaps.heaps import MOST_HEAPED, MOST_INK, NO_HEAP, exponent, held_once, lies, share
 from engine.canvas.layers import Layer
 from engine.canvas.node_checks import LayerError
 from engine.canvas.store import Pyramid
@@ -195,5 +195,5 @@ def _rock(command: LayGround, level: int, arithmetic: int) -> tuple[Rock, float]
 
 def _heaped(layer: Layer, unit: int, edit: _Laid) -> Layer:
     heap = layer.heaps.get(unit)
-    heap = commit(NO_HEAP.branched() if heap is None else heap, edit)
+    heap = commit(NO_HEAP.branched() if heap is None else heap, edit, lessen=held_once)
     return replace(layer, heaps=layer.heaps.set(unit, heap))
