@@ -38,6 +38,7 @@ _PRESET = b"preset"
 _XML_CAP = 24 << 20
 _SENSED = {"pressure": "pressure", "fuzzy": "random_dab", "fuzzystroke": "random_stroke"}
 _FOLLOWING = {"Size": "radius", "Opacity": "opacity", "Flow": "flow", "Softness": "hardness", "Ratio": "ratio"}
+_ALWAYS = ("Opacity", "Flow")  # what cannot be switched off there, but for its curve
 _ENGINES = ("paintbrush", "eraser")
 _LEFT = {  # what cannot be painted with here, by the parameter that is true then
     "Texture/Pattern/Enabled": "its pattern",
@@ -198,7 +199,8 @@ def _step(attributes: Params, wide: float) -> float:
 
 
 def _follow(params: Params, name: str, target: str, dynamics: ByName, left: list[str], file: str) -> None:
-    if not _true(params, f"Pressure{name}"):
+    sensed = bool(params.get(f"{name}Sensor")) if name in _ALWAYS else _true(params, f"Pressure{name}")
+    if not sensed or params.get(f"{name}UseCurve", "true").strip() == "false":
         return
     curves = {}
     for sensor, curve in _sensors(params, name, file).items():

@@ -164,6 +164,12 @@ def test_a_preset_of_krita_has_the_tip_within_it_or_says_that_there_is_none():
     assert brush.left == ("what Krita's “spraybrush” does", "its pattern", "its tip “bark.png”, which is not beside it")
 
 
+def test_opacity_and_flow_of_krita_follow_where_their_curve_is_used():
+    params = {"OpacitySensor": CURVE, "OpacityUseCurve": "true", "FlowSensor": CURVE, "FlowUseCurve": "false"}
+    told = only(read_kpp(w.kpp(params | {"SizeSensor": CURVE, "SizeUseCurve": "true"}), "a.kpp", {}.get)).settings
+    assert told["dynamics"] == {"opacity": {"pressure": [[0.0, 0.25], [1.0, 1.0]]}}
+
+
 def test_a_coloured_tip_of_krita_is_its_alpha_unless_it_is_a_mask():
     pixels = np.dstack([np.full((9, 14), 90), np.full((9, 14), 30), np.full((9, 14), 30), w.TIP]).astype(np.uint8)
     assert holds(only(read_kpp(w.kpp(PARAMS), "a.kpp", {"bark.png": w.png(pixels)}.get)), w.TIP)
