@@ -42,7 +42,7 @@ class FoundBrushes:
 
 def called(name: str, file: str, number: int | None = None) -> str:
     """Returns what a brush is called: by its own name, else as its file is, with its number in that."""
-    stem = file.rpartition(".")[0] or file
+    stem = (file.rpartition(".")[0] or file).replace("_", " ")
     return plain_name(name) or plain_name(stem if number is None else f"{stem} {number}") or "Brush"
 
 

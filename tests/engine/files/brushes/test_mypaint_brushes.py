@@ -31,7 +31,7 @@ def test_a_plain_brush_keeps_its_numbers():
     told = brush.settings
     assert told["radius"] == pytest.approx(math.exp(1.5))
     assert (told["hardness"], told["colour"], brush.coloured, brush.left) == (0.3, "#00ff00", True, ())
-    assert (brush.name, told["dynamics"]) == ("My_brush", {})
+    assert (brush.name, told["dynamics"]) == ("My brush", {})
     assert told["spacing"] == 0.5, "two dabs a radius"
 
 
