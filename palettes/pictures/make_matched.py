@@ -1,4 +1,5 @@
-"""Draws matched.png: examples, their matches, mixtures and solid textures, as Heeger & Bergen 1995 has them.
+"""Draws matched.png: examples, their matches by histograms as Heeger & Bergen 1995 has them and with objects, mixtures
+and solid textures.
 
 python palettes/pictures/make_matched.py
 
@@ -21,6 +22,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "engine" / "texture")]
 import specimens  # noqa: E402
 
 from app.cli.solid_command import cube  # noqa: E402
+from engine.makers.with_structure import texture_steps  # noqa: E402
 from engine.numeric.pyramid import reduce  # noqa: E402
 from engine.texture import matching, mixing, solid  # noqa: E402
 from engine.texture.matching import Pattern, Shape, matched, matched_colours  # noqa: E402
@@ -42,12 +44,20 @@ def examples() -> dict[str, Picture]:
     return made | {"gravel": specimens.photograph("gravel"), "brick": bricks, "wood": specimens.wood()}
 
 
-def mixtures(found: dict[str, Picture]) -> list[Pattern]:
+def mixtures(found: dict[str, Picture]) -> list[Picture]:
     """Moss' colours with bark's pattern, gravel under bark's fine detail, and the way from granite to bark."""
     granite, bark, grey = found["granite"], found["bark"], found["bark"].mean(axis=0, keepdims=True)
-    between = [mixing.average(granite, bark, Shape(), Mix(weight=weight)) for weight in STEPS]
+    between = [structured([granite, bark], "statistics", weight) for weight in STEPS]
     coloured = mixing.palette(found["moss"], bark, Shape(), Mix())
-    return [coloured, mixing.bands(found["gravel"], grey, Shape(), Mix()), *between]
+    return [grown(coloured), grown(mixing.bands(found["gravel"], grey, Shape(), Mix())), *between]
+
+
+def structured(examples: list[Picture], structure: str, weight: float = 0.0) -> Picture:
+    """One example, or two averaged, with as much of their structure."""
+    made = examples[0]
+    for _, colours in texture_steps(examples, structure, weight, (SIDE, SIDE), seed=1):
+        made = made if colours is None else colours
+    return made
 
 
 def grown(pattern: Pattern, seed: int = 1) -> Picture:
@@ -97,7 +107,8 @@ def main() -> None:
     found = examples()
     flat = [matching.analysed(example, Shape()) for example in found.values()]
     width = len(flat) * (SIDE + GAP) - GAP
-    textures = [list(found.values()), [grown(one) for one in flat], [grown(one) for one in mixtures(found)]]
+    things = [structured([example], "objects") for example in found.values()]
+    textures = [list(found.values()), [grown(one) for one in flat], things, mixtures(found)]
     rows = [row([coloured(one) for one in line], width) for line in textures]
     with ThreadPoolExecutor() as threads:
         rows.append(row([shown(voxels(found[name], threads)) for name in SOLIDS], width))

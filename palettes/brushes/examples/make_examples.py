@@ -18,18 +18,18 @@ NAMES = {"gravel": "mossy-gravel", "snow": "old-snow", "turf": "turf"}
 SPOILT = 8.0  # how much less a square likes to be where it is darker or brighter than the rest
 
 
-def inside(picture: Image.Image) -> Image.Image:
+def inside(picture: Image.Image, side: int = SIDE) -> Image.Image:
     """The square that lies farthest inside what is opaque, and is as bright as the rest of it."""
     pixels = np.asarray(picture, np.float32)
     opaque = np.pad(pixels[..., 3] == 255.0, 1)
     depth = distance_transform_cdt(opaque, metric="chessboard")[1:-1, 1:-1].astype(np.float32)
-    bright = uniform_filter(pixels[..., :3].mean(-1), SIDE)
-    typical = np.median(bright[depth > SIDE // 2])
+    bright = uniform_filter(pixels[..., :3].mean(-1), side)
+    typical = np.median(bright[depth > side // 2])
     y, x = np.unravel_index(
-        np.argmax(np.where(depth > SIDE // 2, depth - SPOILT * np.abs(bright - typical), -np.inf)), depth.shape
+        np.argmax(np.where(depth > side // 2, depth - SPOILT * np.abs(bright - typical), -np.inf)), depth.shape
     )
-    left, top = int(x) - SIDE // 2, int(y) - SIDE // 2
-    return picture.crop((left, top, left + SIDE, top + SIDE)).convert("RGB")
+    left, top = int(x) - side // 2, int(y) - side // 2
+    return picture.crop((left, top, left + side, top + side)).convert("RGB")
 
 
 def main() -> None:
