@@ -2,26 +2,14 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import pytest
 
-SCRIPT = Path(__file__).resolve().parents[2] / "palettes" / "pictures" / "make_matched.py"
-
 
 @pytest.fixture(scope="module")
-def sheet():
-    before = list(sys.path)
-    spec = importlib.util.spec_from_file_location("make_matched", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    made = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(made)
-    sys.path[:] = before
-    return made
+def sheet(script_of):
+    return script_of("make_matched")
 
 
 def test_rows_of_examples_and_mixtures_are_as_long(sheet):

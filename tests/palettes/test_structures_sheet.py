@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,15 +12,8 @@ PICTURES = Path(__file__).resolve().parents[2] / "palettes" / "pictures"
 
 
 @pytest.fixture(scope="module")
-def script():
-    before = list(sys.path)
-    spec = importlib.util.spec_from_file_location("make_structures", PICTURES / "make_structures.py")
-    assert spec is not None
-    assert spec.loader is not None
-    made = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(made)
-    sys.path[:] = before
-    return made
+def script(script_of):
+    return script_of("make_structures")
 
 
 def test_a_dozen_kinds_are_squares_without_holes(script):
