@@ -16,6 +16,7 @@ from app.desk.moving import independence
 from app.desk.outside import clipboard
 from app.desk.outside.noting_opened import follow_opened
 from app.desk.recovery import recovery_work
+from app.desk.stack.row_colours import follow_rows
 from app.faults.fault_guard import FaultGuard
 from app.trace import trace
 from engine.studio import results
@@ -59,6 +60,7 @@ def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
         desk.message = Message()
     desk.masks.follow(desk.post, desk.known.active)
     desk.stack.follow(desk.post, scene.layers, scene.serial, scene.active)
+    follow_rows(desk)
     recovery_work.offer(desk, scene)
     follow_opened(desk)
     keep_colours(desk)

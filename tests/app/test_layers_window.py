@@ -132,3 +132,23 @@ def test_several_rows_are_chosen_grouped_dragged_and_hidden_in_one_step_each_and
     app.keys("ctrl+z")
     app.box("Layer 2")
     app.box("Layer 3")
+
+
+def test_a_row_is_coloured_by_its_menu_and_so_again_with_its_painting(program, tmp_path):
+    app = program()
+    app.settled()
+    app.click("add_layer")
+    row = app.part("Layer 1")
+    edge = row[0], slice(1004, 1012)
+    plain = app.parked()[edge]
+    app.move_to(app.at("Layer 1"))
+    app.do("click", 3)
+    app.click("row red")
+    app.until_gone("row red")
+    red = app.until(lambda screen: (np.abs(screen[edge] - plain) > 60).any())[edge]
+    app.save_as(tmp_path / "a.ora")
+    app.wait_until((tmp_path / "state/inkfall/recent/rows.json").exists, "the colour is not kept")
+    app.close()
+    again = program(str(tmp_path / "a.ora"))
+    again.box("Layer 1")
+    again.until(lambda screen: np.array_equal(screen[edge], red))

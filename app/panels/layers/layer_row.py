@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app import icons
+from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
 from app.desk.stack.many_rows import chosen_rows, post_together
+from app.desk.stack.row_colours import ROW_COLOURS, colour_rows
 from app.panels.controls import widgets as w
 from engine.painting import commands as c
 from engine.studio.requests import Do
@@ -71,11 +72,42 @@ def menu(desk: Desk, row: LayerRow) -> bool:
     return rename
 
 
+def _colours(desk: Desk, row: LayerRow) -> None:
+    """Draws the colours that a row can have, or all that are chosen along with it."""
+    side, now = imgui.get_text_line_height(), desk.stack.colours.get(row.name, "")
+    for colour, rgb in ROW_COLOURS.items():
+        hint = "No colour for the row" if colour == now else f"Colour the row {colour}"
+        if w.swatch(f"row {colour}", rgb, hint, (side, side)):
+            names = list(desk.stack.many) if row.name in desk.stack.many else [row.name]
+            colour_rows(desk, names, "" if colour == now else colour)
+            imgui.close_current_popup()
+        if colour == now:
+            painter, white = imgui.get_window_draw_list(), theme.packed((1.0,) * 3)
+            painter.add_rect(
+                imgui.get_item_rect_min(), imgui.get_item_rect_max(), white, 2.0, thickness=1.5 * desk.scale
+            )
+        imgui.same_line(0, 4 * desk.scale)
+    imgui.new_line()
+    imgui.separator()
+
+
+def row_colour(desk: Desk, row: LayerRow) -> None:
+    """Draws the row's colour as a bar at its left end, before all else of it."""
+    colour = ROW_COLOURS.get(desk.stack.colours.get(row.name, ""))
+    if colour is not None:
+        corner, height = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
+        left, wide = corner.x - 3 * desk.scale, imgui.get_content_region_avail().x + 3 * desk.scale
+        painter, low = imgui.get_window_draw_list(), corner.y + height
+        painter.add_rect_filled(ImVec2(left, corner.y), ImVec2(left + wide, low), theme.packed(colour, 0.16))
+        painter.add_rect_filled(ImVec2(left, corner.y), ImVec2(left + 3 * desk.scale, low), theme.packed(colour))
+
+
 def _items(desk: Desk, row: LayerRow) -> bool:
     if imgui.is_window_appearing() and desk.known.scene is not None and desk.known.scene.active != row.name:
         if row.name not in desk.stack.many:
             desk.stack.many = set()
         desk.post(Do(c.SelectLayer(row.name)))
+    _colours(desk, row)
     rename = imgui.menu_item_simple("Rename")
     w.named("Rename")
     w.tooltip("Call it otherwise; a double click does so, too", beside=True)

@@ -8,6 +8,7 @@ from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
 from app.desk.stack.many_rows import chosen_rows, dropped_rows, post_together, reach_row, toggle_row
+from app.desk.stack.row_colours import colour_rows
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 from app.panels.layers import layer_row, mask_picture
@@ -148,6 +149,7 @@ class LayersPanel:
 
     def _row(self, desk: Desk, row: LayerRow) -> None:
         side = imgui.get_frame_height()
+        layer_row.row_colour(desk, row)
         layer_row.eye(desk, row)
         imgui.same_line()
         imgui.dummy(ImVec2(row.depth * side * 0.55, 0))
@@ -233,6 +235,8 @@ class LayersPanel:
             name = self._text.strip()
             if (done or imgui.is_item_deactivated_after_edit()) and name and name != row.name:
                 desk.post(Do(c.RenameLayer(row.name, name)))
+                if row.name in desk.stack.colours:
+                    colour_rows(desk, [name], desk.stack.colours[row.name])
             self._editing = None
 
     def _drag(self, desk: Desk, row: LayerRow) -> None:
