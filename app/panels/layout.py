@@ -85,7 +85,7 @@ class Layout:
         self._covered = []
         top = self._menu(desk)
         bottom = self._status(desk, pointer_name) if desk.panels or desk.notices.rows else 0.0
-        left = right = 0.0
+        left, right, opened = 0.0, 0.0, desk.strip
         if desk.panels:
             height = desk.view.height - top - bottom
             wider = desk.scale * max(1.0, imgui.get_style().font_scale_main)
@@ -97,7 +97,7 @@ class Layout:
                 bottom += tall
                 wide = desk.view.width - left - (0.0 if under else right)
                 self._open_strip(desk, (left, desk.view.height - bottom, wide, tall))
-        self._make_room(desk, (left, top, right, bottom))
+        self._make_room(desk, (left, top, right, bottom), opened)
         self._bar(desk, (left, top))
         box = self.start_page.box(desk)
         if box is not None:
@@ -172,10 +172,11 @@ class Layout:
             imgui.end()
         imgui.pop_style_var()
 
-    def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:
-        """What was in the middle stays there when the strip opens or closes."""
+    def _make_room(self, desk: Desk, insets: tuple[float, float, float, float], opened: str) -> None:
+        """What was in the middle stays there when the strip opens or closes.  `opened`: the one that was drawn: its own
+        sign closes it from the next frame on."""
         x, y = desk.middle()
-        strip, self._strip = self._strip, desk.strip
+        strip, self._strip = self._strip, opened
         desk.insets = insets
         left, top, right, bottom = (round(inset) for inset in insets)
         trace.note_place("canvas", "canvas", (left, top, desk.view.width - right, desk.view.height - bottom))

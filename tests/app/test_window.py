@@ -144,3 +144,11 @@ def test_hovering_shows_in_a_panel_that_was_at_rest(program):
     over = app.parked(app.at("eraser"))
     assert differing(still, over) > 100
     assert np.array_equal(app.parked(), still)
+
+
+def test_what_was_in_the_middle_comes_back_when_a_strip_is_closed_by_its_sign(with_stroke):
+    before = with_stroke.canvas()
+    with_stroke.keys("p")
+    with_stroke.click("close", "strip")
+    with_stroke.until_gone("sample")
+    assert with_stroke.comes_to(before)
