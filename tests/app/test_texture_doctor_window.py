@@ -55,3 +55,23 @@ def test_a_dropped_picture_gets_advice_and_is_painted_with(program, pebbles):
     app.stroke(*LINE)
     stroke = (slice(200, 290), slice(360, 800))
     app.until(lambda screen: changed(screen[stroke], empty[stroke]) > 1500 and brown(screen[stroke]))
+
+
+def test_what_is_told_of_the_example_moves_none_of_the_pictures(program, tmp_path):
+    y, x = np.mgrid[:128, :160]
+    discs = (y % 20 - 10.0) ** 2 + (x % 20 - 10.0) ** 2 < 50
+    shade = np.where(discs, 110 - 6 * (x % 20 - 10), 220)[..., None] * [1.0, 0.8, 0.6]  # quasi-periodic and structured
+    Image.fromarray(shade.astype(np.uint8)).save(tmp_path / "discs.png")
+    app = program()
+    app.settled()
+    app.do("mousemove", 600, 300)
+    Drag(app.display, window_of(app), tmp_path / "discs.png").drop(600, 300)
+    where = "What suits this example?"
+    app.click("What suits it?", "Bring in a picture")
+    cells = {way: app.box(f"doctor {way}", where) for way in ("example", *TRIED)}
+    assert cells["scattered"][0] == cells["full"][0], "the columns are not below one another"
+    example = app.part("doctor example", where)
+    app.until(lambda screen: screen[example].std() > 6)
+    assert [app.box(f"doctor {way}", where) for way in cells] == list(cells.values())
+    app.click("Cancel", where)
+    app.until_gone("doctor example")

@@ -13,6 +13,7 @@ from engine.studio.textures.texture_results import DoctorScene, DoctorTrial
 
 _COLUMNS = 4
 _SIDE = 150.0  # of a picture, points
+_LONGEST = "quasi-periodic, structured"  # of the kinds that are told
 _WAYS = {
     "scattered": ("Scattered", "Even grain that never repeats; nothing is copied"),
     "histograms": ("Histograms", "Grain of the right colours; nothing is copied"),
@@ -37,16 +38,15 @@ class DoctorDialog:
         scene = desk.match.doctored
         trials = {trial.way: trial for trial in scene.trials} if scene is not None else {}
         taken = ""
-        side, gap = _SIDE * desk.scale, imgui.get_style().item_spacing.x
-        wide = _COLUMNS * side + (_COLUMNS - 1) * gap
+        left, step = imgui.get_cursor_pos_x(), _column(desk)
         self._cell(desk, "example", ("Example", "The part that is looked at"), _kinds(scene), (False, False))
         for n, (way, words) in enumerate(_WAYS.items(), 1):
             if n % _COLUMNS:
-                imgui.same_line()
+                imgui.same_line(left + n % _COLUMNS * step)
             trial, best = trials.get(way), scene is not None and scene.advice == way
             if self._cell(desk, way, words, _measured(trial), (best, trial is not None and not trial.fault)):
                 taken = way
-        self._words(desk, scene, wide)
+        self._words(desk, scene, _COLUMNS * step - imgui.get_style().item_spacing.x)
         if self._buttons(desk, scene):
             return False
         if taken:
@@ -117,6 +117,12 @@ class DoctorDialog:
             desk.post(DoctorAsk(""))
             return True
         return False
+
+
+def _column(desk: Desk) -> float:
+    """How far apart columns begin: what is written below a picture, as it comes, moves none of them."""
+    widest = max(imgui.calc_text_size(words).x for words in (_LONGEST, "0.00 apart, 100% copied"))
+    return max(_SIDE * desk.scale, widest) + imgui.get_style().item_spacing.x
 
 
 def _kinds(scene: DoctorScene | None) -> str:
