@@ -80,7 +80,9 @@ class _Straighten(FileWork):
         given = part_looked_at(read_picture(str(self.path), None))
         planes = rgba_of(evened(given, gradients(given)))
         pixels = to_rgba16(planes)
-        digest = hashlib.sha256(pixels.tobytes()).hexdigest()[:12]  # a folder, so that the texture is called as the file
+        digest = hashlib.sha256(pixels.tobytes()).hexdigest()[
+            :12
+        ]  # a folder, so that the texture is called as the file
         path = platformdirs.user_data_path("inkfall") / "straightened" / digest / f"{self.path.stem}.png"
         path.parent.mkdir(parents=True, exist_ok=True)
         with replacing(path) as file:

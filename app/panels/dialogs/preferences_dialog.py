@@ -125,6 +125,7 @@ def _change(desk: Desk, **told: Any) -> None:
 
 def _display(desk: Desk) -> None:
     now, em, hint = desk.preferred.now, imgui.get_font_size(), "Of panels, buttons and texts, in that of the screen"
+    hint += "; larger ones than this window has room for are left out"
     imgui.text_disabled("Size of all beside the canvas")
     room = min(desk.view.width / _ROOM[0], desk.view.height / _ROOM[1]) * now.scale / desk.scale  # in which all fits
     fitting = [percent for percent in _PERCENTS if percent <= max(100.0, 100 * room)]
@@ -134,9 +135,10 @@ def _display(desk: Desk) -> None:
         _change(desk, scale=int(picked) / 100)
     imgui.spacing()
     imgui.text_disabled("Size of texts")
-    changed, size = w.stepper("Points", round(now.font_size), (12, 20), "Of the font; panels widen as it grows")
-    if changed:
-        _change(desk, font_size=float(size))
+    points = [(f"{size}", f"{size} points") for size in range(12, 21)]
+    picked = w.choice("points", f"{now.font_size:.0f}", points, "Of the font; panels widen as it grows", 9 * em)
+    if picked:
+        _change(desk, font_size=float(picked))
 
 
 def _memory(desk: Desk) -> None:
