@@ -39,7 +39,13 @@ HAND = "what the hand does, before it is recorded"
 LABELS = "which pixels hang together: whole numbers alone"
 REFUSED = "which placements are refused, and no pixel"
 REFERENCE = "the paper's own method, which `inkfall example` has for reference, and no painting"
+ADVICE = "advice, and a picture that is set straight, which is a file from then on"
+FOUND = "found once, in the window or by a command: masks and colours are files from then on"
+MATTES = ("belonging", "closed_form", "conjugate", "fine_rim", "marks", "patchwork", "things", "tracing")
 ALLOWED = {
+    "makers.doctor.flattening": ADVICE,
+    "makers.doctor.measuring": ADVICE,
+    **{f"texture.mattes.{name}": FOUND for name in MATTES},
     "numeric.array_functions": GIVEN,
     "numeric.functions": GIVEN,
     "numeric.formula_kernel": GIVEN,

@@ -103,6 +103,8 @@ MADE: dict[str, dict[str, Any]] = {
     "match-bands": texture(
         "match", path="colour.png", iterations=1, levels=2, bands=[{"level": 0, "gain": 2.0}], axes=[1, 2, 0.5, 1]
     ),
+    "match-objects": texture("match", path="colour.png", structure="objects", detail="learnt", size=[48, 40]),
+    "learn": texture("learn", path="colour.png", period=150),
     "mix-palette": texture("mix", path="colour.png", pattern="grey.png", iterations=2, levels=3),
     "mix-bands": texture("mix", path="colour.png", pattern="grey.png", how="bands", split=1, iterations=2, levels=3),
     "mix-average": texture(
