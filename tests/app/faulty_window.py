@@ -39,7 +39,7 @@ def broken_gesture(_desk, _first):
 
 
 if __name__ == "__main__":
-    actions._BY_KEY["4"] = actions._BY_KEY["4"]._replace(do=broken_key)
+    actions.ACTIONS["turn_left"] = actions.ACTIONS["turn_left"]._replace(do=broken_key)
     TOOLS["turn"] = TOOLS["turn"]._replace(gesture=broken_gesture)
     LayersPanel.draw = broken_panel
     StripPanel.dropped = broken_drop

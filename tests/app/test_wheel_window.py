@@ -29,7 +29,7 @@ def test_a_mark_and_a_shade_are_picked_and_nothing_moves(program):
     assert turned[8, 8, 0] > turned[8, 8, 2], "across from blue is no blue"
     app.click("shade 6")
     app.until(lambda screen: screen[now][8, 8].sum() > turned[8, 8].sum() + 60)
-    app.click("paper colour")
+    app.click("paper swatch")
     app.until(lambda screen: (screen[now][8, 8] == 255).all())
     assert [app.box(name) for name in ("Lightness", "palette", "Layers")] == places
 
@@ -40,9 +40,13 @@ def test_a_mask_holds_what_is_picked_and_its_corners_are_dragged_and_kept(progra
     app.click("gamut mask")
     app.click("Muted")
     app.wait_until(lambda: kept_wheel(app).get("masked") is True, "the mask is not kept")
+    app.keys("Escape")
+    app.until_gone("Pick within the mask")
     now = app.part("now")
     app.click("gamut mask")
     app.click("Muted")  # turned to the hue: the same
+    app.keys("Escape")
+    app.until_gone("Pick within the mask")
     app.move_to(app.at("disc", 0.5, 0.97))
     app.do("mousedown", 1)
     app.do("mouseup", 1)

@@ -43,7 +43,7 @@ def draw_left(desk: Desk, hue: float) -> None:
     paper = desk.known.paper
     colour = _BARE if paper is None else from_hex(paper)
     hint = "The colour of the paper" if paper else "White: this painting has no paper (Edit > Paper)"
-    if w.swatch("paper colour", colour, hint, (side, side)):
+    if w.swatch("paper swatch", colour, hint, (side, side)):
         desk.hand.colour = colour
 
 

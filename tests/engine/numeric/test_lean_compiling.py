@@ -33,7 +33,7 @@ def _overloads(name: str) -> list[str]:
 
 
 def test_a_kernel_is_told_of_when_somebody_listens_and_carries_nothing_that_joins_strings():
-    values, out = np.array([1.0, 2.0, 3.0]), np.zeros(4)
+    values, out = np.array([1.0, 2.0, 3.0], np.float32), np.zeros(4, np.float32)  # no other test compiles it for these
     with event.install_recorder("numba:compile") as recorded:
         assert _put(values, out) == 2.0
     assert {told.data["dispatcher"].py_func.__name__ for _, told in recorded.buffer} >= {"_put", "_most"}
@@ -42,7 +42,7 @@ def test_a_kernel_is_told_of_when_somebody_listens_and_carries_nothing_that_join
     assert "unicode" not in code
     assert "cfunc." not in code
     with pytest.raises(ValueError, match="different size"):
-        _put(values, np.zeros(6))
+        _put(values, np.zeros(6, np.float32))
 
 
 def test_numbas_own_functions_are_compiled_once_for_kernels_of_both_sorts():
