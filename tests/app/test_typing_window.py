@@ -41,16 +41,14 @@ def test_a_digit_typed_over_a_field_that_has_no_focus_leaves_the_picture_as_it_i
     app.park()
     before = app.settled()[60:740, 270:970]
     for field in ("Opacity", "Find"):
-        app.do("mousemove", *app.at(field, window="left"))
-        time.sleep(0.3)
+        app.move_to(app.at(field, window="left"))
         app.keys("4")
         app.wait_until(lambda: any(name.startswith("Nothing takes") for _, name in app.boxes()), "it is not told")
         app.do("mousemove", 120, 119)
         app.until_gone("Nothing takes what is typed: click a field first, or a slider with Ctrl held")
     app.park()
     assert (app.settled()[60:740, 270:970] == before).all()
-    app.do("mousemove", 640, 300)
-    time.sleep(0.3)
+    app.move_to((640, 300))
     app.keys("4")
     app.park()
     assert (app.settled()[60:740, 270:970] != before).any()

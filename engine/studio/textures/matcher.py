@@ -31,7 +31,7 @@ from engine.studio.easel import Easel
 from engine.studio.textures import structure_ready
 from engine.studio.textures import texture_requests as tq
 from engine.studio.textures import texture_results as tr
-from engine.studio.textures.made_beside import made_beside
+from engine.studio.textures.taken_beside import taken_beside
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern
 from engine.texture.mixing import SplitColours
@@ -222,7 +222,10 @@ def _when_ready(plan: Plan) -> Iterator[heeger_bergen.Made]:
         yield from heeger_bergen.steps(plan)
         return
     yield from structure_ready.waiting(0.0)
-    yield from made_beside(heeger_bergen.steps(plan))
+    done = 0.0
+    for made in taken_beside(heeger_bergen.steps(plan)):
+        done = done if made is None else made.done
+        yield heeger_bergen.Made(done) if made is None else made
 
 
 def _repeated(planes: np.ndarray, size: tuple[int, int]) -> np.ndarray:

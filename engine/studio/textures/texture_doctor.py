@@ -20,6 +20,7 @@ from engine.studio.easel import Easel
 from engine.studio.textures import structure_ready
 from engine.studio.textures import texture_requests as tq
 from engine.studio.textures import texture_results as tr
+from engine.studio.textures.taken_beside import taken_beside
 
 
 class TextureDoctor(Owned):
@@ -55,7 +56,7 @@ class TextureDoctor(Owned):
             for _ in structure_ready.waiting(0.0):
                 yield None
             tried = 0
-            for report in examined(planes, flat=flat):
+            for report in taken_beside(examined(planes, flat=flat)):
                 if report is None:
                     yield None
                     continue
