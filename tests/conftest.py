@@ -10,6 +10,7 @@ import signal
 import tempfile
 
 import pytest
+from hypothesis import settings
 
 os.environ["INKFALL_CHECK_THREADS"] = "1"  # before any module of the program is loaded
 _OWN = tempfile.mkdtemp(prefix="inkfall-tests-")  # what is kept, and preferred, is not that of whoever runs the tests
@@ -19,6 +20,9 @@ for _number in (signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)):
     if signal.getsignal(_number) is signal.SIG_IGN:  # in the background of a shell, and under nohup
         signal.signal(_number, lambda *_: None)  # so what tests start does hear it
 os.environ |= {"XDG_STATE_HOME": f"{_OWN}/state", "XDG_CONFIG_HOME": f"{_OWN}/config"}
+# The same examples every time, so that what fails is what was changed; --hypothesis-profile=default looks for others.
+settings.register_profile("same", derandomize=True)
+settings.load_profile("same")
 
 
 def pytest_collection_modifyitems(items):

@@ -60,8 +60,8 @@ def owner_of(bound: Bound, key: str) -> str:
 
 
 def bound_with(bound: Bound, row: str, keys: tuple[str, ...]) -> Bound:
-    """Returns the map in which a row has these keys, which no other has any more."""
-    out: dict[str, tuple[str, ...]] = dict(bound)
+    """Returns the map in which a row has these keys, which no other has any more, nor one that this program has not."""
+    out = {one: tuple(key for key in held if key not in keys) for one, held in bound.items()}
     for key in keys:
         owner = owner_of(out, key)
         if owner and owner != row:

@@ -4,7 +4,7 @@ import json
 import random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from imgui_bundle import imgui  # noqa: F401  # before glfw, so that both use one libglfw
 
@@ -37,6 +37,7 @@ def desk(tmp_path, monkeypatch):
 
 @settings(deadline=None)
 @given(st.lists(st.tuples(ROWS, st.lists(KEYS, max_size=3)), max_size=12))
+@example([("of a newer program", ["B"]), ("about", ["B"])])
 def test_no_key_means_two_things_whatever_is_bound(bindings):
     bound = {}
     for row, keys in bindings:
