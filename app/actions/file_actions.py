@@ -7,6 +7,7 @@ from app.actions.action import asks, asks_guarded, idle, ready
 from app.desk import offers
 from app.desk.desk import Desk
 from engine.studio.filing.film_requests import StopFilm
+from engine.studio.filing.opening_requests import StopPlaying
 
 
 def _has_file(desk: Desk) -> bool:
@@ -23,6 +24,14 @@ def _can_film(desk: Desk) -> bool:
 
 def _stop_film(desk: Desk) -> None:
     desk.post(StopFilm())
+
+
+def _playing(desk: Desk) -> bool:
+    return desk.known.playing is not None
+
+
+def _stop_playing(desk: Desk) -> None:
+    desk.post(StopPlaying())
 
 
 def _stopped(desk: Desk) -> bool:
@@ -59,5 +68,8 @@ FILE_ACTIONS: dict[str, A] = {
     ),
     "film": A("Film…", "File", ("Ctrl+Shift+E",), "Film how it was made, or a flight", asks("film"), _can_film),
     "stop_film": A("Stop film", "File", (), "Stop making the film; no file is written", _stop_film, _filming),
+    "stop_playing": A(
+        "Stop playing", "File", (), "Leave the painting as it is; you can paint on it", _stop_playing, _playing
+    ),
     "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", close),
 }  # fmt: skip

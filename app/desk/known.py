@@ -29,8 +29,8 @@ class Known:
     painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
     will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
     does; `prepared`: how many brushes are ready; `opening`: the file that is being opened; `filming`: the part done of
-    a film that is being made, `film_length`: of the one that is asked about; `wearing`: the part done of an
-    erosion; `held`: who holds what memory.  Times
+    a film that is being made, `film_length`: of the one that is asked about; `playing`: of a
+    recording that plays; `wearing`: of an erosion; `held`: who holds what memory.  Times
     are seconds of time.monotonic()."""
 
     ready: bool = False
@@ -47,6 +47,7 @@ class Known:
     prepared: Prepared = Prepared(0, 0)  # noqa: RUF009
     opening: Opening | None = None
     filming: float | None = None
+    playing: float | None = None
     film_length: FilmLength = FilmLength()  # noqa: RUF009
     wearing: float | None = None
     held: Held = Held()  # noqa: RUF009
@@ -131,6 +132,7 @@ _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.Prepared: lambda known, r, now: {"prepared": r},
     results.Growing: _growing,
     results.Filming: lambda known, r, now: {"filming": r.part},
+    results.Played: lambda known, r, now: {"playing": r.part},
     results.FilmLength: lambda known, r, now: {"film_length": r},
     WornTold: lambda known, r, now: {"wearing": r.part},
     Held: lambda known, r, now: {"held": r},

@@ -76,6 +76,8 @@ def _left(desk: Desk, right: float) -> None:
         imgui.text_unformatted("Click a place: the strokes that show there are listed  (Esc: not now)")
     elif desk.known.filming is not None:
         _offer(desk, f"Filming, {desk.known.filming * 100:.0f} %", "stop_film")
+    elif desk.known.playing is not None:
+        _offer(desk, f"Playing {desk.known.title}, {desk.known.playing * 100:.0f} %", "stop_playing")
     elif desk.places.lost and not desk.painting:
         _offer(desk, "No paint in sight", "nearest")
     elif desk.stack.only is not None and desk.known.ready:

@@ -254,6 +254,13 @@ class Filming:
 
 
 @dataclass(frozen=True, slots=True)
+class Played:
+    """How far the recording that plays is: the part done, 0..1; None: none plays."""
+
+    part: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class FilmLength:
     """How long the film would be that was asked about, in seconds and in frames; or why it cannot be made."""
 
@@ -308,6 +315,7 @@ Result = (
     | CutFound
     | GotReady
     | Filming
+    | Played
     | FilmLength
     | Prepared
     | Growing

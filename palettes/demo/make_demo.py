@@ -35,7 +35,11 @@ def main() -> None:
     easel = Easel()
     landscape(easel)
     header = {"inkfall": 1, "frame": [0, 0, WIDTH, HEIGHT], "seed": 7}
-    lines = [header, *easel.lines, {"do": "view", "level": 0, "origin": [0, 0], "size": [WIDTH, HEIGHT]}]
+    ending = (
+        {"do": "layer", "select": "Foreground"},  # whoever paints on sees the colour that was chosen, as it is
+        {"do": "view", "level": 0, "origin": [0, 0], "size": [WIDTH, HEIGHT]},
+    )
+    lines = [header, *easel.lines, *ending]
     text = "".join(json.dumps(line, separators=(",", ":")) + "\n" for line in lines)
     (FOLDER / "demo.jsonl").write_text(text, "utf-8")
     places = [

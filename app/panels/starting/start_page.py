@@ -138,7 +138,7 @@ class StartPage:
     def _lake(self, desk: Desk, wide: float) -> None:
         """Draws the painting to play with, whose picture is pressed as its button is."""
         corner, size = imgui.get_cursor_screen_pos(), ImVec2(wide, round(wide * _RATIO))
-        hint = "It is painted before your eyes, in about a minute; zoom into it meanwhile"
+        hint = "It is painted before your eyes, in a minute or more; zoom in or stop it meanwhile"
         pressed = imgui.invisible_button("lake", size) and ready(desk)
         w.named("lake picture")
         w.tooltip(hint)

@@ -23,7 +23,7 @@ from engine.studio.easel import Easel
 from engine.studio.filing import documents
 from engine.studio.filing.document import Document
 from engine.studio.filing.filming import Filming
-from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole, Show
+from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole, Show, StopPlaying
 from engine.studio.filing.openings import Openings, Wanted
 from engine.studio.filing.playing import PIECE, Playing, looked
 from engine.studio.filing.recovering import reopened
@@ -63,6 +63,7 @@ class Filing(Owned):
             FileWhole: self.openings.whole,
             Show: self.openings.show,
             CancelOpening: lambda request: self.openings.cancel(),
+            StopPlaying: lambda request: self._stop(),
         }
 
     def close(self) -> None:
@@ -89,6 +90,7 @@ class Filing(Owned):
                 easel.session.heard(command, None)
         self._script, self._marks = None if live is None else Playing(live), document.marks
         self.due = None if live is None else 0.0
+        easel.send(results.Played(None if live is None else 0.0))
         easel.show(document.session(), document.path, modified=document.unsaved)
         if again is not None:
             easel.name = document.name
@@ -123,12 +125,26 @@ class Filing(Owned):
         if self._easel.live is not None and not self._script.drawing:  # a hand draws: its stroke comes first
             self.due = time.monotonic() + PIECE
             return
+        before = self._script.part
         self.due = self._script.advance(self._easel)
         if self.due is None:
-            self._script = None
-            self._easel.saved = None if self._easel.session.log else self._easel.session.state
-            self._easel.tell()
-            self._easel.send(results.Note("The recording has ended"))
+            self._ended("The recording has ended")
+        elif int(100 * self._script.part) > int(100 * before):
+            self._easel.send(results.Played(self._script.part))
+
+    def _stop(self) -> None:
+        """Ends the recording that plays, with the stroke that it draws."""
+        if self._script is not None:
+            if self._script.drawing:
+                self._script.complete(self._easel)
+            self._ended("The recording was stopped")
+
+    def _ended(self, told: str) -> None:
+        self._script = self.due = None
+        self._easel.saved = None if self._easel.session.log else self._easel.session.state
+        self._easel.tell()
+        self._easel.send(results.Played())
+        self._easel.send(results.Note(told))
 
     def _new(self, request: q.New) -> None:
         self.openings.cancel()

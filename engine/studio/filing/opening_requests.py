@@ -26,6 +26,11 @@ class CancelOpening:
 
 
 @dataclass(frozen=True, slots=True)
+class StopPlaying:
+    """The recording that plays is to end where it is."""
+
+
+@dataclass(frozen=True, slots=True)
 class FileRead:
     """The file number `file` is read to the part `part`, 0..1; posted by the thread that opens it."""
 
@@ -43,4 +48,4 @@ class FileWhole:
     fault: Note | None = None
 
 
-OpeningRequest = Show | CancelOpening | FileRead | FileWhole
+OpeningRequest = Show | CancelOpening | StopPlaying | FileRead | FileWhole

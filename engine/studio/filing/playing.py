@@ -55,6 +55,7 @@ class Playing(Owned):
         self._commands: Iterator[c.Command] = iter(recording.commands)
         points = sum(len(command.points) for command in recording.commands if isinstance(command, c.Stroke))
         self._pace = min(SLOWEST, LIVE_SECONDS / max(1, points))
+        self._of, self._done = max(1, len(recording.commands)), 0
         self._clock = 0.0  # when, by the pace, the next point is due
         self._rest: np.ndarray | None = None
         self._level: float | None = None
@@ -72,6 +73,11 @@ class Playing(Owned):
         except (Leak, Unclosed) as error:
             raise faults.stated(error) from None
         return max(self._clock, now)
+
+    @property
+    def part(self) -> float:
+        """Gives the part of its commands that are carried out, or begun."""
+        return self._done / self._of
 
     @property
     def drawing(self) -> bool:
@@ -92,6 +98,7 @@ class Playing(Owned):
         command = next(self._commands, None)
         if command is None:
             return False
+        self._done += 1
         if isinstance(command, c.View):
             stage.carry_out(command)
             self._look(stage, command)

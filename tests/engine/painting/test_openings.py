@@ -19,7 +19,7 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing.document import Document
 from engine.studio.filing.documents import opened
-from engine.studio.filing.opening_requests import CancelOpening, FileWhole, Show
+from engine.studio.filing.opening_requests import CancelOpening, FileWhole, Show, StopPlaying
 from engine.studio.filing.openings import Wanted
 from opens import Watch, opens, read
 
@@ -199,3 +199,22 @@ def test_a_recording_is_played_to_its_end_with_its_steps_and_what_failed_is_told
     assert session.painting.root.children == Painting().root.children
     window.studio.do(q.Do(c.Redo(2)))
     assert window.scene().can_undo
+
+
+def test_a_recording_that_plays_tells_how_far_it_is_and_can_be_stopped(tmp_path):
+    (tmp_path / "r.jsonl").write_text(HEADER + STROKE * 4)
+    window = Window()
+    studio = window.studio
+    for stopped in (False, True):
+        window.other.clear()
+        opens(studio, window.posted, tmp_path / "r.jsonl", live=True)
+        while studio.due is not None:
+            studio.play()
+            if stopped and len(of(window, results.Played)) == 2:
+                studio.do(StopPlaying())
+        parts = [told.part for told in of(window, results.Played)]
+        assert parts == ([0.0, 0.25, None] if stopped else [0.0, 0.25, 0.5, 0.75, 1.0, None])
+        assert len(studio.easel.session.log) == (1 if stopped else 4)
+        assert len(studio.easel.session.log[0].points) == 3, "the stroke in hand is drawn to its end"
+    studio.do(StopPlaying())  # nothing plays
+    assert of(window, results.Note)[-1].text == "The recording was stopped"
