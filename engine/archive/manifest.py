@@ -55,7 +55,7 @@ RECORDING = "inkfall/recording.jsonl"
 _MOST_NOTES = 20  # lines about bookmarks, guides and the like
 _CONSTANTS = {"byteorder": "little", "tile": TILE, "space": "srgb-premultiplied"}
 _UNIT = "2^-{}"
-Shas = tuple[str | None, str | None, str | None]  # of a texture's picture, its mask, and what was learnt
+Shas = tuple[str | None, ...]  # of a texture's picture, its mask, what was learnt, and its control channels
 
 
 @dataclass(frozen=True)
@@ -113,8 +113,8 @@ class Manifest:
         for name, (kind, parameters, *shas) in self.textures.items():
             if any(sha is not None and sha not in pictures for sha in shas):
                 raise FieldError(f"textures.{name}", "no picture", "one of those in the file")
-            source, mask, maps = (None if sha is None else replace(pictures[sha], name=name) for sha in shas)
-            made[name] = Texture(kind, parameters, source, mask, self.arithmetic, maps)
+            source, mask, maps, control = (None if sha is None else replace(pictures[sha], name=name) for sha in shas)
+            made[name] = Texture(kind, parameters, source, mask, self.arithmetic, maps, control)
             plot_files.check_texture(f"textures.{name}", made[name])
             try:
                 made[name].instance({}, 0, 0)
@@ -168,7 +168,7 @@ def manifest_json(
                 "kind": t.kind,
                 "parameters": thawed(t.parameters),
                 **({"picture": t.source.sha} if t.source is not None else {}),
-                **{key: one.sha for key, one in (("mask", t.mask), ("maps", t.maps)) if one is not None},
+                **{key: one.sha for key, one in t.beside.items()},
             }
             for name, t in sorted(painting.textures.items())
         },
@@ -192,7 +192,7 @@ def format_of(painting: Painting) -> int:
     wrapped = any(layer.wrap is not None or layer.heaps for layer in layers.layers(painting.root))
     masked = any(True for _ in selection_files.masks_of(painting.root))
     inks = held_inks(painting.root)
-    learnt = any(len(pictures_of(ink)) > 1 for ink in inks) or any(t.maps for t in painting.textures.values())
+    learnt = any(len(pictures_of(ink)) > 1 for ink in inks) or plot_files.controlled(painting)
     beside = painting.guides or painting.touches or painting.paper is not None
     if any((roles, clipped, wrapped, masked, chosen, learnt, beside)):
         return FORMAT
@@ -371,7 +371,7 @@ def _packs(members: Fields) -> tuple[Pack, ...]:
 
 def _texture(value: Any, where: str) -> tuple[str, Map[str, Any], *Shas]:
     members = Fields(value, where)
-    shas = members.text("picture", None), members.text("mask", None), members.text("maps", None)
+    shas = tuple(members.text(name, None) for name in ("picture", "mask", "maps", "control"))
     return members.text("kind"), frozen(_object(members, "parameters")), *shas
 
 

@@ -10,13 +10,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from immutables import Map
 from isal import isal_zlib
 
 from engine.archive import maskpacks
+from engine.brush.checks import frozen
 from engine.brush.settings import DEEPEST
 from engine.canvas import layers
 from engine.canvas.growth import Growth, Plot
@@ -27,17 +27,22 @@ from engine.files.strict_json import Fields
 from engine.numeric.halving import halved_region
 from engine.painting.commands import LEVEL_LIMIT, SEED_LIMIT
 from engine.painting.textures import Texture
+from engine.painting.value import Painting
+from engine.strokes.example_maps import channels_from_json
 from engine.strokes.example_stroke import FURTHEST
 from engine.strokes.example_textures import KIND, Origin, exemplar_of, key_of, parameters_of
 from engine.texture.example import region as regions
+from engine.texture.example.control import Channels
 from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar
 from engine.texture.example.parameters import FIELDS, Parameters, with_values
 from engine.texture.example.region import Region
 from engine.texture.example.tiles import NONE, TILE_SIDE, Tiles, sealed
+from engine.texture.example.told import coarser as coarser_told
 from engine.texture.image import ImageSource
 
 GROWN = 1 << 17  # bytes in memory of a tile that is grown, with all its levels, about
 ANALYSED = 1 << 7  # and of a pixel of an example
+TURNED = 48  # times as much of one that is learnt from turned all round, at most
 EXAMPLES_CAP = 1000
 DETAIL_CAP = 4
 OTHERWISE = "some of what was painted with examples is not quite what it was when it was saved: it was grown again"
@@ -45,18 +50,21 @@ OTHERWISE = "some of what was painted with examples is not quite what it was whe
 
 @dataclass(frozen=True)
 class ExampleEntry:
-    """What an example is made of: `picture`, and `mask` if it has one, by their sha."""
+    """What an example is made of: `picture`, and if it has them `mask` and `control`, by their sha; `channels`:
+    those of the last."""
 
     picture: str
     mask: str | None
     parameters: Parameters
     detail: int
+    control: str | None = None
+    channels: Channels = ()
 
 
 @dataclass(frozen=True)
 class PlotEntry:
     """A plot in a file: `example`, by its name there; `masks`: members with their numbers of tiles; `crc`: of its
-    pixels as they were grown."""
+    pixels as they were grown; `told`: members with what its control channels tell, likewise."""
 
     depth: float
     level: int
@@ -65,6 +73,7 @@ class PlotEntry:
     example: str
     masks: tuple[tuple[str, int], ...]
     crc: int
+    told: tuple[tuple[str, int], ...] = ()
 
 
 # ---- writing ----
@@ -82,7 +91,9 @@ def example_entry(plot: Plot) -> ExampleEntry:
     """Tells what the example of a plot is made of."""
     found = origin(plot)
     mask = None if found.mask is None else found.mask.sha
-    return ExampleEntry(found.source.sha, mask, plot.region.exemplar.parameters, found.detail)
+    control = None if found.control is None else found.control.sha
+    about = plot.region.exemplar.parameters, found.detail
+    return ExampleEntry(found.source.sha, mask, *about, control, found.channels)
 
 
 def stored(plot: Plot, stem: str) -> tuple[PlotEntry, dict[str, Callable[[], bytes]]]:
@@ -93,8 +104,14 @@ def stored(plot: Plot, stem: str) -> tuple[PlotEntry, dict[str, Callable[[], byt
     for number, keys in enumerate(maskpacks.grouped(masks)):
         members.append((f"{stem}-{number}.masks", len(keys)))
         makes[members[-1][0]] = partial(maskpacks.pack, masks, keys)
+    told = []
+    for number, keys in enumerate(
+        maskpacks.grouped(plot.region.told[0], maskpacks.TOLD_TILES) if plot.region.told else ()
+    ):
+        told.append((f"{stem}-{number}.told", len(keys)))
+        makes[told[-1][0]] = partial(maskpacks.pack_told, plot.region.told[0], keys)
     about = plot.depth, plot.level, plot.name, plot.region.seed, plot.key
-    return PlotEntry(*about, tuple(members), crc(plot)), makes
+    return PlotEntry(*about, tuple(members), crc(plot), tuple(told)), makes
 
 
 def crc(plot: Plot) -> int:
@@ -111,33 +128,41 @@ def entries(root: Group) -> dict[str, ExampleEntry]:
     return {key: example_entry(plot) for key, plot in sorted(found.items())}
 
 
-def plot_json(entry: PlotEntry) -> dict[str, Any]:
+def controlled(painting: Painting) -> bool:
+    """Tells whether anything has control channels, or has learnt."""
+    plots = (plot for layer in layers.layers(painting.root) for plot in layer.growth)
+    textures = any(one.maps or one.control for one in painting.textures.values())
+    return textures or any(plot.region.exemplar.control is not None for plot in plots)
+
+
+def plot_json(entry: PlotEntry) -> dict[str, object]:
     """Tells a plot as the manifest does; `parse_plot` is the inverse."""
-    own = {field.name: getattr(entry, field.name) for field in fields(entry)}
-    return {**own, "masks": [list(member) for member in entry.masks]}
+    own = {field.name: getattr(entry, field.name) for field in fields(entry) if field.name not in ("masks", "told")}
+    told = {"told": [list(member) for member in entry.told]} if entry.told else {}
+    return {**own, "masks": [list(member) for member in entry.masks], **told}
 
 
-def examples_json(examples: Mapping[str, ExampleEntry]) -> dict[str, Any]:
+def examples_json(examples: Mapping[str, ExampleEntry]) -> dict[str, object]:
     """Tells all examples as the manifest does; `parse_examples` is the inverse."""
     return {key: _example_json(entry) for key, entry in examples.items()}
 
 
-def _example_json(entry: ExampleEntry) -> dict[str, Any]:
+def _example_json(entry: ExampleEntry) -> dict[str, object]:
     own = entry.parameters
     told = {name: getattr(own, name) for name in FIELDS}
     mask = {} if entry.mask is None else {"mask": entry.mask}
-    return {"picture": entry.picture, **mask, "detail": entry.detail, "parameters": told}
+    control = {} if entry.control is None else {"control": entry.control, "controls": list(map(list, entry.channels))}
+    return {"picture": entry.picture, **mask, **control, "detail": entry.detail, "parameters": told}
 
 
 # ---- reading ----
 
 
-def parse_plot(value: Any, where: str) -> PlotEntry:
+def parse_plot(value: object, where: str) -> PlotEntry:
     """FieldError names the member that is wrong."""
     members = Fields(value, where)
-    masks = members.take("masks", expected="a list")
-    sound = isinstance(masks, list) and masks and all(isinstance(m, list) and len(m) == 2 for m in masks)
-    if not (sound and all(isinstance(name, str) and type(count) is int and count > 0 for name, count in masks)):
+    masks, told = _members(members, "masks"), _members(members, "told") if "told" in members else ()
+    if not masks:
         raise members.fault("masks", "[member, tiles] each, one at least")
     furthest = LEVEL_LIMIT + FURTHEST
     return PlotEntry(
@@ -146,12 +171,22 @@ def parse_plot(value: Any, where: str) -> PlotEntry:
         members.text("name"),
         members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT),
         members.text("example"),
-        tuple((name, count) for name, count in masks),
+        masks,
         members.integer("crc", lo=0, hi=(1 << 32) - 1),
+        told,
     )
 
 
-def parse_example(value: Any, where: str) -> ExampleEntry:
+def _members(members: Fields, name: str) -> tuple[tuple[str, int], ...]:
+    """Returns members of the archive with their numbers of tiles."""
+    found = members.take(name, expected="a list")
+    sound = isinstance(found, list) and all(isinstance(m, list) and len(m) == 2 for m in found)
+    if not (sound and all(isinstance(own, str) and type(count) is int and count > 0 for own, count in found)):
+        raise members.fault(name, "[member, tiles] each, one at least")
+    return tuple((own, count) for own, count in found)
+
+
+def parse_example(value: object, where: str) -> ExampleEntry:
     """FieldError names the member that is wrong."""
     members = Fields(value, where)
     told = members.take("parameters", expected="an object")
@@ -159,7 +194,14 @@ def parse_example(value: Any, where: str) -> ExampleEntry:
         raise members.fault("parameters", "an object")
     parameters = with_values(Parameters(), told, f"{where}.parameters.")
     detail = members.integer("detail", lo=0, hi=DETAIL_CAP)
-    return ExampleEntry(members.text("picture"), members.text("mask", None), parameters, detail)
+    held = members.text("picture"), members.text("mask", None), parameters, detail
+    if "control" not in members:
+        return ExampleEntry(*held)
+    try:
+        channels = channels_from_json(frozen(members.take("controls", expected="a list")))
+    except FieldError as error:
+        raise FieldError(f"{where}.controls", error.found, error.expected) from None
+    return ExampleEntry(*held, members.text("control"), channels)
 
 
 def _called(name: str) -> str:
@@ -167,7 +209,7 @@ def _called(name: str) -> str:
     return ascii(name[:12])[1:-1]
 
 
-def parse_examples(told: Mapping[str, Any]) -> dict[str, ExampleEntry]:
+def parse_examples(told: Mapping[str, object]) -> dict[str, ExampleEntry]:
     """Reads the examples of a manifest by their keys.  FieldError names what is wrong, or that there are too many."""
     if len(told) > EXAMPLES_CAP:
         raise FieldError("manifest.examples", f"{len(told)}", f"at most {EXAMPLES_CAP}")
@@ -200,13 +242,13 @@ def cost(examples: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], sizes
     """Returns bytes of memory that the plots of a file take when they are grown, about; `sizes`: of its pictures."""
     whole = GROWN * sum(count for plot in plots for _, count in plot.masks)
     for name, entry in examples.items():
-        for sha in (entry.picture, entry.mask):
+        for sha in (entry.picture, entry.mask, entry.control):
             if sha is not None and sha not in sizes:
                 raise FieldError(f"examples.{_called(name)}", f"picture {shown(sha, 12)}", "one of those in the file")
         masked = None if entry.mask is None else sizes[entry.mask]
         _check_sizes(f"examples.{_called(name)}", sizes[entry.picture], masked)
         width, height = sizes[entry.picture]
-        whole += ANALYSED * width * height
+        whole += ANALYSED * (TURNED if entry.channels and entry.channels[0].turns > 1 else 1) * width * height
     return whole
 
 
@@ -249,7 +291,9 @@ class Nursery:
         for entry in entries:
             key, exemplar = self.examples[entry.example]
             tiles = maskpacks.joined([masks(*member) for member in entry.masks], where)
-            plots.append(Plot(entry.depth, entry.level, entry.name, key, region_of(exemplar, entry.seed, tiles)))
+            told = maskpacks.joined([masks(*member) for member in entry.told], where)
+            region = region_of(exemplar, entry.seed, tiles, _checked(exemplar, tiles, told, where))
+            plots.append(Plot(entry.depth, entry.level, entry.name, key, region))
             marks.append(Mark(tiles, entry.crc))
         plots.sort(key=lambda plot: plot.order)
         for one, other in pairwise(plots):
@@ -279,7 +323,21 @@ def _texture(entry: ExampleEntry, name: str, pictures: Mapping[str, ImageSource]
     """Returns the example as a texture that was painted with under some name."""
     mask = None if entry.mask is None else replace(pictures[entry.mask], name=name)
     told = Map({field: getattr(entry.parameters, field) for field in FIELDS})
-    return Texture(KIND, told, replace(pictures[entry.picture], name=name), mask)
+    source = replace(pictures[entry.picture], name=name)
+    if entry.control is None:
+        return Texture(KIND, told, source, mask)
+    control = replace(pictures[entry.control], name=name)
+    return Texture(KIND, told.set("controls", tuple(map(tuple, entry.channels))), source, mask, control=control)
+
+
+def _checked(exemplar: Exemplar, masks: Tiles, told: Tiles, where: str) -> Tiles:
+    """Returns what control channels tell of a plot; FileError unless it is of its channels, and of its pixels alone."""
+    count = 0 if exemplar.control is None else exemplar.control.stored
+    for key, tile in told.items():
+        own = masks.get(key)
+        if tile.data.shape[0] != count or own is None or (tile.data[:, own.data[0] == 0]).any():
+            raise FileError(where, f"what control channels tell: found another number than {count}, or other pixels")
+    return told
 
 
 def _check_apart(plots: Sequence[Plot], where: str) -> None:
@@ -294,12 +352,15 @@ def _check_apart(plots: Sequence[Plot], where: str) -> None:
             held[key] = mask if before is None else before | mask
 
 
-def region_of(exemplar: Exemplar, seed: int, masks: Tiles) -> Region:
-    """Returns the region of some pixels, as if they had been painted; nothing is refined."""
-    found = [masks]
+def region_of(exemplar: Exemplar, seed: int, masks: Tiles, told: Tiles = NONE) -> Region:
+    """Returns the region of some pixels, as if they had been painted; nothing is refined.  `told`: what stored control
+    channels tell of them."""
+    found, channels = [masks], [told]
     for _ in exemplar.levels[1:]:
+        channels.append(coarser_told(channels[-1], found[-1]))
         found.append(_coarser(found[-1]))
-    return replace(regions.empty(exemplar, seed), masks=tuple(found))
+    bare = regions.empty(exemplar, seed)
+    return replace(bare, masks=tuple(found), told=tuple(channels) if bare.told else ())
 
 
 def _coarser(fine: Tiles) -> Tiles:

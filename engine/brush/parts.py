@@ -90,6 +90,30 @@ class Tip:
     parameters: Map[str, Any] = field(default_factory=Map)
 
 
+BY_STROKE = "stroke"  # the way the stroke runs, in place of a texture's name
+CHANNELS_CAP = 8
+
+
+def control(value: object, place: str) -> Map[str, str | float]:
+    """Reads what a brush tells of control channels.  BrushError names what is wrong."""
+    if not isinstance(value, Mapping) or len(value) > CHANNELS_CAP:
+        raise BrushError(place, described(value), f"an object of at most {CHANNELS_CAP} channels")
+    return Map(
+        {checks.text(name, place, "a channel's name"): _told(told, f"{place}.{name}") for name, told in value.items()}
+    )
+
+
+def _told(value: object, place: str) -> str | float:
+    if isinstance(value, str):
+        return checks.text(value, place, '"stroke", or a texture\'s name')
+    return checks.number(value, place, 0.0, 1.0)
+
+
+def named_by_control(told: Mapping[str, str | float]) -> list[str]:
+    """Returns the textures that control channels are told by."""
+    return [one for one in told.values() if isinstance(one, str) and one != BY_STROKE]
+
+
 def ink(value: Any, place: str) -> tuple[Component, ...]:
     """Reads a brush's ink.  BrushError names what is wrong."""
     if not isinstance(value, list | tuple) or len(value) > COMPONENTS_CAP:

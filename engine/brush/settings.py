@@ -109,6 +109,8 @@ class Brush:
 
     `example`: the texture that mode "example" grows, on the layer of depth `depth`, in pixels of `example_level` (None:
     the stroke's own); `example_detail`: how many levels of the example are finer than these.
+    `control`: by channel of the example, what it tells of the pixels that it takes: "stroke" for the way
+    the stroke runs (of `orientation`), a texture's name, or a number 0..1.
     `height`: what it heaps on the layer of heights in place of its paint, in pixels of the stroke's level, negative to
     carve, "auto" for a quarter of the radius; None: its paint, by whose brightness that layer is as high.  `impasto`:
     how thick its paint lies on other layers, likewise.
@@ -136,6 +138,7 @@ class Brush:
     depth: float | None = None
     example_level: int | None = None
     example_detail: int = 0
+    control: Map[str, str | float] = field(default_factory=Map)
     height: Thickness = None
     impasto: float = 0.0
     shape: TipShape = ROUND
@@ -198,9 +201,9 @@ def to_json(brush: Brush) -> dict[str, Any]:
 
 def textures_of(brush: Brush) -> list[str]:
     """Returns the names of the textures that a brush uses, each once: of its ink, coverage, tip and example."""
-    parts = (*brush.ink, brush.density, brush.grain, brush.tip)
-    named = [*(part.texture for part in parts if part is not None), *([brush.example] if brush.example else ())]
-    return list(dict.fromkeys(named))
+    used = (*brush.ink, brush.density, brush.grain, brush.tip)
+    named = [*(part.texture for part in used if part is not None), *([brush.example] if brush.example else ())]
+    return list(dict.fromkeys([*named, *parts.named_by_control(brush.control)]))
 
 
 _RARE: dict[str, Any] = {
@@ -216,6 +219,7 @@ _RARE: dict[str, Any] = {
     "depth": None,
     "example_level": None,
     "example_detail": 0,
+    "control": Map(),
     "height": None,
     "impasto": 0.0,
     "shape": ROUND,
@@ -258,6 +262,7 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "depth": _optional(lambda value, place: checks.number(value, place, -DEEPEST, DEEPEST)),
     "example_level": _optional(lambda value, place: checks.integer(value, place, -LEVEL_LIMIT, LEVEL_LIMIT)),
     "example_detail": lambda value, place: checks.integer(value, place, 0, MOST_DETAIL),
+    "control": parts.control,
     "height": _optional(_height),
     "impasto": lambda value, place: checks.number(value, place, -MOST_HEIGHT, MOST_HEIGHT),
     "shape": tip_shape,

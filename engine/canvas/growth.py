@@ -28,6 +28,7 @@ from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.region import Region
 from engine.texture.example.region_window import OUTSIDE
 from engine.texture.example.tiles import NONE, TilePlanes, Tiles
+from engine.texture.example.told import translated
 
 _NOWHERE = Rect(0, 0, 0, 0)
 _MOST_RECTS = 32  # that changes of one plot are told by
@@ -86,8 +87,10 @@ def laid(
     seed: int,
     rect: Rect,
     mask: np.ndarray,
+    told: np.ndarray | None = None,
 ) -> Growth:
-    """With the pixels of `mask`, bool (h, w) over `rect` of `level`, painted with an example.
+    """With the pixels of `mask`, bool (h, w) over `rect` of `level`, painted with an example; `told`: what its stored
+    control channels tell of them, uint8 (C, h, w).
 
     They join the plot of that depth, level and example, whose seed then stays, and leave the others of that depth.  Of
     plots of a finer level all pixels below them leave; of a coarser one those whose centre lies in them, so that it
@@ -99,7 +102,7 @@ def laid(
     turn = 1 + max((plot.turn for plot in growth), default=0)
     if own is None:
         own = Plot(depth, level, name, key, regions.empty(exemplar, seed))
-    grown = _painted(own, rect, mask, False)
+    grown = _painted(own, rect, mask, False, told)
     others = [_cut(p, level, rect, mask) if p.depth == depth else p for p in growth if p is not own]
     return _ordered([*others, replace(grown, turn=turn)], growth)
 
@@ -121,7 +124,8 @@ def swapped(growth: Growth, plot: Plot, name: str, key: str, exemplar: Exemplar)
         own = Plot(*order[:2], name, key, regions.empty(exemplar, plot.region.seed))
     masks = plot.region.masks[0]
     for place, mask in masks.items():
-        own = _painted(own, tiles.rect_of(place), mask.data[0] > 0, False)
+        told = translated(plot.region, own.region, place)
+        own = _painted(own, tiles.rect_of(place), mask.data[0] > 0, False, told)
     return _ordered([*(p for p in growth if p.order != order and p is not plot), replace(own, turn=turn)], growth)
 
 
@@ -137,9 +141,9 @@ def at(growth: Growth, level: int, x: int, y: int, depth: float | None = None) -
     return None
 
 
-def _painted(plot: Plot, rect: Rect, mask: np.ndarray, erase: bool) -> Plot:
-    region = regions.painted(plot.region, rect, mask, erase)
-    same = region.masks[0] is plot.region.masks[0]
+def _painted(plot: Plot, rect: Rect, mask: np.ndarray, erase: bool, told: np.ndarray | None = None) -> Plot:
+    region = regions.painted(plot.region, rect, mask, erase, told)
+    same = region.masks[0] is plot.region.masks[0] and (not region.told or region.told[0] is plot.region.told[0])
     return plot if same else replace(plot, region=region)
 
 
@@ -360,7 +364,8 @@ def tiles_of(growth: Growth) -> set[TilePlanes]:
     found: set[TilePlanes] = set()
     for plot in growth:
         region = plot.region
-        held = (*region.masks, *plot.shown, *(part for n in region.levels for part in (n.mask, n.above, n.sources)))
+        parts = (part for n in region.levels for part in (n.mask, n.above, n.sources, n.told))
+        held = (*region.masks, *region.told, *plot.shown, *parts)
         for part in {id(part): part for part in held}.values():
             found.update(part.values())
     return found

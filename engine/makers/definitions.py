@@ -13,6 +13,7 @@ from typing import Any
 from immutables import Map
 
 from engine.brush import settings
+from engine.brush.parts import named_by_control
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.checks.values import described
@@ -79,7 +80,7 @@ def kind_of(command: DefineTexture) -> str:
 
 def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any]) -> bool:
     """Tells whether a texture of a painting is what this command would make: all that is told is as told."""
-    told = {name: value for name, value in command.arguments.items() if name not in ("sha", "maps_sha")}
+    told = {name: value for name, value in command.arguments.items() if name not in ("sha", "maps_sha", "control_sha")}
     silent = _NAMING - set(told)
     return (
         kind == kind_of(command)
@@ -92,7 +93,19 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
 _NAMING = frozenset(
     (
         *("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field"),
-        *("bundled", "mask", "mask_strokes", "region", "params", "material", "cube", "step", "touches", "detail"),
+        *(
+            "bundled",
+            "mask",
+            "mask_strokes",
+            "region",
+            "params",
+            "maps",
+            "material",
+            "cube",
+            "step",
+            "touches",
+            "detail",
+        ),
     )
 )
 _MISSING = object()
@@ -109,7 +122,11 @@ def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTextu
         maker = "solid" if "material" in parameters or "cube" in parameters else maker
     elif kind in ("matched", "series"):
         maker = "mix" if "pattern" in parameters else "match"
-    given = {key: value for key, value in parameters.items() if key not in ("sha", "mask_sha", "maps_sha", "examples")}
+    given = {
+        key: value
+        for key, value in parameters.items()
+        if key not in ("sha", "mask_sha", "maps_sha", "control_sha", "controls", "examples")
+    }
     found = DefineTexture(name, maker, Map(given))
     return found if kind_of(found) == kind else None
 
@@ -202,6 +219,7 @@ def _collect(value: Any, names: set[str]) -> None:
     elif isinstance(value, dict):
         names.update(part for key, part in value.items() if key in _REFERRING and isinstance(part, str))
         _collect([part for part in value.values() if isinstance(part, list | dict)], names)
+        names.update(named_by_control(_control_of(value)))
 
 
 def renamed(brush: Brush, names: Mapping[str, str]) -> Brush:
@@ -216,7 +234,18 @@ def _renamed(value: Any, names: Mapping[str, str]) -> Any:
         return [_renamed(part, names) for part in value]
     if not isinstance(value, dict):
         return value
-    return {
+    found = {
         key: names.get(part, part) if key in _REFERRING and isinstance(part, str) else _renamed(part, names)
         for key, part in value.items()
     }
+    told = _control_of(value)
+    renamed_told = {
+        name: names.get(part, part) if part in named_by_control(told) else part for name, part in told.items()
+    }
+    return found | ({"control": renamed_told} if told else {})
+
+
+def _control_of(value: Mapping[str, object]) -> dict[str, str | float]:
+    """Returns what a brush, as JSON, tells of control channels."""
+    told = value.get("control")
+    return told if isinstance(told, dict) else {}

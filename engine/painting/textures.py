@@ -25,7 +25,8 @@ LEARNT_SHA = "maps_sha"  # the member of a definition by which what was learnt i
 class Texture:
     """`kind`: a row of KINDS; `parameters`: those that the definition gives, a brush may give others on top;
     `source`: the picture of an image; `mask`: of an example, white where the region is that is grown, None where that
-    goes by alpha; `arithmetic`: that of its painting; `maps`: what was learnt of the picture, kept as one."""
+    goes by alpha; `arithmetic`: that of its painting; `maps`: what was learnt of the picture, kept as one; `control`:
+    the planes of an example's control channels, one below the other."""
 
     kind: str
     parameters: Map[str, Any]
@@ -33,11 +34,18 @@ class Texture:
     mask: ImageSource | None = None
     arithmetic: int = LIBRARY
     maps: ImageSource | None = None
+    control: ImageSource | None = None
 
     @property
     def pictures(self) -> tuple[ImageSource, ...]:
         """Gives all pictures that it needs."""
-        return tuple(one for one in (self.source, self.mask, self.maps) if one is not None)
+        return (*(() if self.source is None else (self.source,)), *self.beside.values())
+
+    @property
+    def beside(self) -> dict[str, ImageSource]:
+        """Gives all but its own picture, by the names that they have in a file."""
+        held = {"mask": self.mask, "maps": self.maps, "control": self.control}
+        return {name: one for name, one in held.items() if one is not None}
 
     def instance(self, parameters: Mapping[str, Any], level: int, seed: int) -> Instance:
         """Makes the instance that a brush's ink names, with the parameters that it gives anew, a base level and a
@@ -75,4 +83,6 @@ def recorded(command: DefineTexture, texture: Texture) -> DefineTexture:
         found["mask_sha"] = texture.mask.sha
     if texture.maps is not None:
         found[LEARNT_SHA] = texture.maps.sha
+    if texture.control is not None:
+        found["control_sha"] = texture.control.sha
     return replace(command, arguments=command.arguments.update(found, sha=texture.source.sha))

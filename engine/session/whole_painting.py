@@ -114,6 +114,11 @@ def _with_textures(painting: Painting, found: Painting) -> Painting:
 def _is(one: Texture, other: Texture) -> bool:
     pictures = all(
         (a.sha if a else None) == (b.sha if b else None)
-        for a, b in ((one.source, other.source), (one.mask, other.mask), (one.maps, other.maps))
+        for a, b in (
+            (one.source, other.source),
+            (one.mask, other.mask),
+            (one.maps, other.maps),
+            (one.control, other.control),
+        )
     )
     return pictures and (one.kind, one.parameters) == (other.kind, other.parameters)

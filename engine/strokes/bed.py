@@ -20,6 +20,7 @@ from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
 from engine.numeric.address import Rect
 from engine.numeric.elementary import log2
+from engine.strokes.pen_trail import PenTrail
 from engine.texture.example import tiles
 
 _LEAST_SQUARE, _SQUARES = 16, 3  # px along a square; 2^3 squares and less to a radius
@@ -33,7 +34,7 @@ class Bed:
     `begin` makes the stroke's footprint; `change` is what the stroke makes of a growth where it takes pixels.
     """
 
-    def __init__(self, growth: Growth, level: int, begin: Callable[[], Footprint], change: Change) -> None:
+    def __init__(self, growth: Growth, level: int, begin: Callable[[], Footprint | PenTrail], change: Change) -> None:
         self.before = self.growth = self.seen = growth
         self._level = level
         self._begin, self._footprint, self._change = begin, begin(), change

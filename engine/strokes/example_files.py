@@ -19,7 +19,7 @@ from engine.files.fault import FileError, WriteError
 from engine.files.images import read_image
 from engine.numeric.arithmetic import LIBRARY
 from engine.texture.example.exemplar import ExampleLevel, Exemplar, analysed
-from engine.texture.example.parameters import Parameters, read_toml
+from engine.texture.example.parameters import Parameters, map_table, read_toml
 
 VERSION = 2  # of the analysis: another one, another hash
 _KEPT = 64  # analyses at most; the ones unused for longest go first
@@ -31,6 +31,22 @@ _DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.er
 
 def read_parameters(path: str | os.PathLike[str]) -> Parameters:
     """Returns a TOML file; FileError names the file, the line and the field."""
+    data = _parameter_bytes(path)
+    try:
+        return read_toml(data)
+    except FieldError as error:
+        raise FileError(path, str(error)) from None
+
+
+def read_map_table(path: str | os.PathLike[str]) -> dict[str, object]:
+    """Returns what a TOML file, which `read_parameters` reads, tells of maps."""
+    try:
+        return map_table(_parameter_bytes(path))
+    except FieldError as error:
+        raise FileError(path, str(error)) from None
+
+
+def _parameter_bytes(path: str | os.PathLike[str]) -> bytes:
     try:
         with open(path, "rb") as file:
             data = file.read(PARAMETERS_CAP + 1)
@@ -38,10 +54,7 @@ def read_parameters(path: str | os.PathLike[str]) -> Parameters:
         raise FileError(path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
     if len(data) > PARAMETERS_CAP:
         raise FileError(path, f"more than {PARAMETERS_CAP} bytes; expected a file of parameters")
-    try:
-        return read_toml(data)
-    except FieldError as error:
-        raise FileError(path, str(error)) from None
+    return data
 
 
 def read_exemplar(

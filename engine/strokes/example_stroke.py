@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from engine.brush import prints
 from engine.brush.checks import BrushError
+from engine.brush.copies import Copies, Torus
 from engine.brush.footprint import Footprint
 from engine.brush.settings import Brush
 from engine.canvas import growth as growths
@@ -23,6 +25,7 @@ from engine.strokes.example_textures import KIND, exemplar_of, key_of
 from engine.strokes.live_stroke import Drawn
 from engine.strokes.mask_painting import insist_on_paint
 from engine.strokes.paint_stroke import LiveStroke
+from engine.strokes.pen_trail import PenTrail, Telling
 from engine.texture.example.exemplar import Exemplar
 
 FURTHEST = 8  # levels from the stroke's to that of the example's pixels
@@ -60,8 +63,10 @@ class LiveGrowth(Drawn):
         grid = grid_of(brush, level)
         shape = prints.resolve(brush, painting.textures, level, self.own)
         within = growths.bounds(self.layer.growth, grid) if brush.row.takes_away else None
-        begin = partial(Footprint, brush, self.origin, grid - level, shape, within, self.copies, self.chance)
-        change = change_of(brush, grid, painting, self.own)
+        footprint = partial(Footprint, brush, self.origin, grid - level, shape, within, self.copies, self.chance)
+        change, telling = change_of(brush, grid, painting, self.own)
+        place = self.origin, grid - level, self.copies
+        begin = footprint if telling is None else partial(_trail, footprint, brush, place, telling)
         self.bed = Bed(
             self.layer.growth, level, begin, change if self.limit is None else self.limit.within(change, grid)
         )
@@ -99,15 +104,29 @@ def check_alpha(layer: Layer, what: str) -> None:
         raise Refusal(f"{what}: found layer {layer.name!r} with locked alpha, expected one without")
 
 
-def change_of(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
-    """Returns what the brush makes of a growth where it takes pixels of level `grid`."""
+def _trail(
+    footprint: Callable[[], Footprint],
+    brush: Brush,
+    place: tuple[tuple[int, int], int, Copies | Torus],
+    telling: Telling,
+) -> Footprint | PenTrail:
+    """Returns a stroke's footprint, by which `telling` knows from now on which way it runs, if that is asked for."""
+    if telling.following is None:
+        return footprint()
+    telling.trail = PenTrail(footprint(), brush, place, telling.following)
+    return telling.trail
+
+
+def change_of(brush: Brush, grid: int, painting: Painting, seed: int) -> tuple[Change, Telling | None]:
+    """Returns what the brush makes of a growth where it takes pixels of level `grid`, and what it tells of these."""
     if brush.row.takes_away:
-        return lambda growth, rect, mask: growths.cut(growth, grid, rect, mask, brush.depth)
+        return lambda growth, rect, mask: growths.cut(growth, grid, rect, mask, brush.depth), None
     assert brush.example is not None
     plant = sown(painting, brush.example, brush.example_detail, "brush.example")
     depth = 0.0 if brush.depth is None else brush.depth
     about = depth, grid, plant.name, plant.key, plant.exemplar, seed
-    return lambda growth, rect, mask: growths.laid(growth, *about, rect, mask)
+    told = Telling(brush, plant.exemplar.control, painting.known_textures, grid, seed)
+    return lambda growth, rect, mask: growths.laid(growth, *about, rect, mask, told(rect)), told
 
 
 def grid_of(brush: Brush, level: int) -> int:

@@ -12,9 +12,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from immutables import Map
 
 from engine.brush.checks import BrushError, thawed
 from engine.brush.footprint import Footprint
@@ -27,8 +28,11 @@ from engine.numeric.colour import to_rgba16
 from engine.painting import commands as c
 from engine.painting.capture import read_straight
 from engine.painting.textures import Around, Texture
-from engine.strokes.example_files import kept, read_mask, read_parameters
+from engine.strokes import example_maps
+from engine.strokes.example_files import kept, read_map_table, read_mask, read_parameters
 from engine.strokes.example_region import STEPS_CAP, followed
+from engine.texture.example.control import Channels
+from engine.texture.example.controlled import analysed_with
 from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar, shrunk
 from engine.texture.example.parameters import FIELDS, Parameters, with_values
 from engine.texture.image import ImageSource
@@ -39,16 +43,20 @@ STROKES_CAP = 4096
 _ENDINGS = {"path": ".png", "mask": ".mask.png", "params": ".toml"}
 _HELD = 12  # analyses kept in memory
 _WHITE = 0.5
+_SHAS = "sha", "mask_sha", "control_sha"
 _CHANGED = "is not what was there when it was recorded"
 
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """What an exemplar was made of, besides its parameters: its texture's picture and mask, and the detail left out."""
+    """What an exemplar was made of, besides its parameters: its texture's picture and mask, the detail left out, and
+    its control channels with their planes."""
 
     source: ImageSource
     mask: ImageSource | None
     detail: int
+    channels: Channels = ()
+    control: ImageSource | None = None
 
 
 def of_definition(command: c.DefineTexture, around: Around) -> Texture:
@@ -56,8 +64,8 @@ def of_definition(command: c.DefineTexture, around: Around) -> Texture:
 
     `path` of a picture or `bundled`, the name of one that comes along; `mask`, a picture that is light where the region
     is (else it is where the picture is not transparent), `mask_strokes`, painted on it, and `region`, steps by which it
-    is changed; `params`, a TOML file, and any of its fields.  FieldError names the member,
-    FileError the file.
+    is changed; `params`, a TOML file, and any of its fields; `maps`, as in that file (module `example_maps`).
+    FieldError names the member, FileError the file.
     """
     members = Fields(thawed(command.arguments), "")
     paths = _paths(members, around.folder)
@@ -66,9 +74,10 @@ def of_definition(command: c.DefineTexture, around: Around) -> Texture:
     mask = _mask(command.name, members, paths["mask"], source, around)
     if mask is not None:
         found["mask_sha"] = mask.sha
-    given = {name: value for name, value in command.arguments.items() if name not in ("sha", "mask_sha")}
+    found |= (told := _control(command, (source, mask), paths["params"], around)).found
+    given = {name: value for name, value in command.arguments.items() if name not in (*_SHAS, "controls")}
     parameters = command.arguments.update(found).update(given)
-    texture = Texture(KIND, parameters, source, mask, arithmetic=around.arithmetic)
+    texture = Texture(KIND, parameters, source, mask, around.arithmetic, control=told.picture)
     exemplar_of(texture)  # what is wrong with it is told where it is defined
     return texture
 
@@ -149,7 +158,45 @@ def _mask(name: str, members: Fields, path: Path | None, source: ImageSource, ar
     return found
 
 
-def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
+class _Told(NamedTuple):
+    """The planes of control channels, as one picture, and what is to be recorded of them."""
+
+    picture: ImageSource | None = None
+    found: Map[str, object] = Map()
+
+
+def _control(
+    command: c.DefineTexture, pictures: tuple[ImageSource, ImageSource | None], params: Path | None, around: Around
+) -> _Told:
+    """Returns the control channels of an example: of the maps that its definition tells, or else its parameter file."""
+    members = Fields(command.arguments, "")
+    sha = members.text("control_sha", None, cap=64)
+    if sha is not None and sha in around.pictures and "controls" in members:
+        picture = replace(around.pictures[sha], name=command.name)
+        return _Told(picture, Map({"controls": members.take("controls")}))
+    value, folder, place = members.take("maps", None), around.folder, "maps"
+    new = "controls" in members or not all(name in members for name in FIELDS)  # else the definition tells all
+    if value is None and params is not None and new:
+        _regular(params)
+        value, folder = read_map_table(params), params.parent
+        place = f"{params}: maps"
+    maps = () if value is None else example_maps.read_maps(value, place)
+    if not maps:
+        return _Told()
+    channels, picture = example_maps.made(command.name, maps, folder, _inside(*pictures), place)
+    if sha is not None and sha != picture.sha:
+        raise FileError(command.name, f"maps: what they tell {_CHANGED}")
+    return _Told(picture, Map({"controls": example_maps.channels_to_json(channels)}))
+
+
+def _inside(source: ImageSource, mask: ImageSource | None) -> np.ndarray:
+    """Returns the region of an example, bool (h, w)."""
+    shown = source.planes(source.whole)[3] > 0.0 if mask is None else mask.planes(mask.whole)[3] > _WHITE
+    out: np.ndarray = shown
+    return out
+
+
+def _with_stroke(inside: np.ndarray, value: object, where: str) -> np.ndarray:
     """Returns the region with what a stroke takes, or without it if the stroke erases."""
     if not isinstance(value, Mapping):
         raise FieldError(where, described(value), "a stroke")
@@ -163,7 +210,7 @@ def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
     return out
 
 
-def _with_steps(inside: np.ndarray, steps: list[Any], source: ImageSource, path: Path | None) -> np.ndarray:
+def _with_steps(inside: np.ndarray, steps: list[object], source: ImageSource, path: Path | None) -> np.ndarray:
     if inside.shape != (source.height, source.width):
         size = f"{source.width} x {source.height}"
         raise FileError(path or source.name, f"found a mask of another size, expected {size} pixels")
@@ -187,28 +234,45 @@ def exemplar_of(texture: Texture, detail: int = 0) -> Exemplar:
     """
     if texture.kind != KIND or texture.source is None or not texture.source.there:
         raise BrushError("brush.example", f"a texture of the kind {texture.kind}", "one of the maker example")
-    return _analysed(texture.source, texture.mask, parameters_of(texture), detail, texture.arithmetic)
+    channels = channels_of(texture)
+    origin = Origin(texture.source, texture.mask, detail, channels, texture.control if channels else None)
+    return _analysed(origin, parameters_of(texture), texture.arithmetic)
+
+
+def channels_of(texture: Texture) -> Channels:
+    """Gives the control channels of an example texture.  FieldError if they are none."""
+    if texture.control is None or not texture.control.there:
+        return ()
+    return example_maps.channels_from_json(texture.parameters.get("controls"))
 
 
 def key_of(texture: Texture, detail: int = 0) -> str:
     """Tells whether two exemplars are the same: by what they are made of."""
     assert texture.source is not None
     mask = "" if texture.mask is None else texture.mask.sha
-    about = (texture.source.sha, mask, asdict(parameters_of(texture)), detail)
+    about: tuple[object, ...] = (texture.source.sha, mask, asdict(parameters_of(texture)), detail)
+    if texture.control is not None:
+        about = (*about, texture.control.sha, example_maps.channels_to_json(channels_of(texture)))
     return hashlib.sha256(repr(about).encode()).hexdigest()
 
 
 @lru_cache(maxsize=_HELD)
-def _analysed(
-    source: ImageSource, mask: ImageSource | None, parameters: Parameters, detail: int, arithmetic: int
-) -> Exemplar:
-    origin = Origin(source, mask, detail)
+def _analysed(origin: Origin, parameters: Parameters, arithmetic: int) -> Exemplar:
+    source, mask, detail = origin.source, origin.mask, origin.detail
     if detail:
-        return replace(shrunk(_analysed(source, mask, parameters, 0, arithmetic), detail), origin=origin)
+        whole = _analysed(replace(origin, detail=0), parameters, arithmetic)
+        return replace(shrunk(whole, detail), origin=origin)
     height, width = source.height, source.width
     if max(height, width) > EXAMPLE_SIDE:
         raise FieldError("example", f"{width} x {height} pixels", f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}")
     inside = None if mask is None or not mask.there else mask.planes(mask.whole)[3] > _WHITE
-    return replace(
-        kept(to_rgba16(source.planes(source.whole)), inside, parameters, arithmetic=arithmetic), origin=origin
-    )
+    pixels = to_rgba16(source.planes(source.whole))
+    if origin.control is None:
+        return replace(kept(pixels, inside, parameters, arithmetic=arithmetic), origin=origin)
+    if parameters.method == "scanline":
+        raise FieldError("maps", 'maps with method "scanline"', 'method "correction"')
+    planes = example_maps.control_planes(origin.control, len(origin.channels))
+    if planes.shape[1:] != (height, width):
+        size = f"{origin.control.width} x {origin.control.height} pixels"
+        raise FieldError("maps", size, f"{width} x {height} for each as the example")
+    return replace(analysed_with(pixels, inside, parameters, (origin.channels, planes), arithmetic), origin=origin)

@@ -140,7 +140,7 @@ class Pouring:
         """Returns the layer with an example grown in a region, or with what was grown there at a depth taken away."""
         brush, layer, level = self._brush, self._layer, region.level
         grid = grid_of(brush, level)
-        change = self._limited(change_of(brush, grid, self._painting, self._painting.seed), grid)
+        change = self._limited(change_of(brush, grid, self._painting, self._painting.seed)[0], grid)
         rect, mask = _carried(region.rect, taken(region), grid - level)
         return replace(layer, growth=growths.previewed(change(layer.growth, rect, mask)))
 

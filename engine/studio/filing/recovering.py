@@ -139,7 +139,7 @@ def _shas(command: c.DefineTexture) -> Iterator[str]:
     """Yields the shas of all pictures that a definition names."""
     shapes = command.arguments.get("shapes", ())
     for told in (command.arguments, *(shapes if isinstance(shapes, tuple) else ())):
-        for name in ("sha", "mask_sha", "maps_sha"):
+        for name in ("sha", "mask_sha", "maps_sha", "control_sha"):
             sha = told.get(name) if hasattr(told, "get") else None
             if isinstance(sha, str) and sha.isalnum():
                 yield sha

@@ -21,6 +21,8 @@ from engine.numeric.neighbourhood import (
     others_apart,
     others_apart_within,
 )
+from engine.texture.example.channels import told_apart, turned_source, way_of
+from engine.texture.example.exemplar import COUNTS
 from engine.texture.example.region_window import (
     MARGIN,
     OUTSIDE,
@@ -102,6 +104,7 @@ def _energy(
     """
     row, column = name >> 16, name & 0xFFFF
     e = np.int32(rules.penalty * max(0, ones(bits ^ (example.bits[row, column] & rules.square)) - rules.leeway))
+    e += told_apart(window, y, x, example, name, rules)
     if e >= least:
         return e
     i = 4 * ((y - RADIUS) * window.mask.shape[1] + x - RADIUS)
@@ -117,6 +120,8 @@ def _corrected(window: Window, y: Int, x: Int, p: Int, example: Example, rules: 
         bits = rules.square
     searched = rules.stride > 0 or (bits != rules.square and p == 1)
     count = _continued(window, y, x, example, rules.stride > 0, tried)
+    if example.turns.size:
+        count = _turned_too(window, y, x, example, tried, count)
     if count == 1 and not searched:
         return tried[0]  # type: ignore[no-any-return]
     least, best = _FAR, np.int32(OUTSIDE)
@@ -129,8 +134,9 @@ def _corrected(window: Window, y: Int, x: Int, p: Int, example: Example, rules: 
     limit = least if best < 0 else np.int32(np.int64(least) * 256 // rules.kappa)
     h = mix64(window.hashes[y, x] + np.uint64(p) * _GOLDEN)
     if rules.stride:
-        first = np.int64(h % np.uint64(min(rules.stride, example.order.size)))
-        last = example.order.size
+        way = way_of(window, y, x, example)
+        last = np.int64(example.starts[way + COUNTS])
+        first = example.starts[way] + np.int64(h % np.uint64(min(rules.stride, last - example.starts[way])))
         return _searched(window, y, x, example, rules, bits, rim, limit, best, first, last, rules.stride)
     if searched:
         return _searched_rim(window, y, x, example, rules, bits, least, best, h)
@@ -154,6 +160,19 @@ def _continued(window: Window, y: Int, x: Int, example: Example, coarsest: bool,
             continue
         names[count] = name
         count += 1
+    return count
+
+
+@inlined
+def _turned_too(window: Window, y: Int, x: Int, example: Example, names: np.ndarray, count: Int) -> Int:
+    """Lists beside some sources those of the same place of the example in the copy that is turned as the channel of
+    orientation tells, where they are in another one; gives the number of all."""
+    listed = count
+    for i in range(listed):
+        name = turned_source(example, names[i], window.told[0, y, x])
+        if name >= 0 and not _holds(names, count, name):
+            names[count] = name
+            count += 1
     return count
 
 
@@ -197,7 +216,8 @@ def _searched_rim(
     What is another shape weighs as it is, only colours weigh (1 + kappa) times as much as those of what continues the
     neighbours: so shapes override colours, whatever the rim looks like (Ritter et al. 2006, section 5).
     """
-    first, last = _alike(example.starts, ones(window.bits[y, x]))
+    way = way_of(window, y, x, example)
+    first, last = _alike(example.starts[way : way + COUNTS + 1], ones(window.bits[y, x]))
     step = max(_ONE_IN, (last - first) // _SHAPES)
     first += np.int64(h % np.uint64(step))
     nearest, count = np.int32(SIDE * SIDE + 1), 0
@@ -215,6 +235,9 @@ def _searched_rim(
         if apart > near or shape >= limit:
             continue
         name = example.order[i]
+        shape += told_apart(window, y, x, example, name, rules)
+        if shape >= limit:
+            continue
         most = np.int32(((limit - shape) * share >> 16) + 1)  # of the colours, beyond which it is too far in any case
         e = _colours_apart(window, corner, example, _corner(example, name), rules.weights, True, np.int32(0), most)
         e = np.int64(shape) + np.int64(e) * rules.rim_kappa // 256
@@ -270,7 +293,7 @@ def correct(
     found: np.ndarray,
 ) -> None:
     """Finds the sources of the pixels places[first:last]."""
-    _correct(window, places, first, last, p, example, rules, found, np.empty(9, np.int32))
+    _correct(window, places, first, last, p, example, rules, found, np.empty(18, np.int32))
 
 
 @uncounted

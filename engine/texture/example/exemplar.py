@@ -6,7 +6,7 @@ A pixel of a level is named by (row << 16) | column, both counted from PAD outsi
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -19,6 +19,7 @@ from engine.numeric.blur import blurred
 from engine.numeric.colour import to_rgba16
 from engine.numeric.halving import halved, halved_region
 from engine.numeric.neighbourhood import FULL, RADIUS, region_bits
+from engine.texture.example.control import Control
 from engine.texture.example.parameters import MOST_LEVELS, Parameters
 
 PAD = RADIUS + 1  # a neighbourhood and one pixel more, to fill the register
@@ -38,7 +39,8 @@ class ExampleLevel:
 
     `compared`: int16 (h, w, 4), 0..255, 0 outside the region; `region`: uint8 (h, w), the pixels that may be copied;
     `bits`: uint64 (h, w), the region's 7 x 7 shapes; `order`: int32 names of the region's pixels, those with few
-    neighbours inside first; `starts`: int32 (51,), where each count begins in it.
+    neighbours inside first; `starts`: int32 (51,), where each count begins in it.  Where an example is turned all round
+    these are lists one after another, of pixels that run each way: 51 more in `starts` for each.
     """
 
     compared: np.ndarray
@@ -57,6 +59,7 @@ class Exemplar:
     `finer`: what there is of the example in levels below the finest of `levels`, the coarsest of them first:
     premultiplied float32 (h, w, 4) in 0..1, twice as large each.
     `origin`: what it was made of, for whoever has to make it again; `arithmetic`: in which it was analysed.
+    `control`: its control channels.
     """
 
     pixels: np.ndarray
@@ -69,6 +72,7 @@ class Exemplar:
     finer: tuple[np.ndarray, ...] = ()
     origin: Any = None
     arithmetic: int = LIBRARY
+    control: Control | None = None
 
     @cached_property
     def average(self) -> np.ndarray:
@@ -82,7 +86,8 @@ class Exemplar:
         first, and FULL for all others: uint64, side by side, as searches along a rim compare many."""
         found = []
         for level in self.levels:
-            names = level.order[: level.starts[COUNTS - 1]]
+            several = level.starts.size > COUNTS + 1
+            names = level.order if several else level.order[: level.starts[COUNTS - 1]]
             found.append(_frozen(np.append(level.bits[names >> 16, names & 0xFFFF], FULL)))
         return tuple(found)
 
@@ -108,18 +113,36 @@ def analysed(
     FieldError where there is nothing to learn from.
     """
     parameters = parameters or Parameters()
-    mask = _region_of(pixels, mask, parameters, arithmetic)
-    boundary = parameters.boundary == "yes" or (parameters.boundary == "auto" and not mask.all())
-    count = _level_count(mask, parameters, boundary)
+    mask = region_of(pixels, mask, parameters, arithmetic)
+    boundary = has_rim(mask, parameters)
+    return of_levels(pixels, mask, parameters, (level_count(mask, parameters, boundary), boundary), arithmetic)
+
+
+def has_rim(mask: np.ndarray, parameters: Parameters) -> bool:
+    """Tells whether the rim of an example's region is one."""
+    return parameters.boundary == "yes" or (parameters.boundary == "auto" and not bool(mask.all()))
+
+
+def of_levels(
+    pixels: np.ndarray,
+    mask: np.ndarray,
+    parameters: Parameters,
+    shape: tuple[int, bool],
+    arithmetic: int,
+    control: Control | None = None,
+) -> Exemplar:
+    """Returns the exemplar of a picture and its region, `shape`: (how many levels, whether it has a rim)."""
+    count, boundary = shape
     colours, region = premultiplied(pixels), mask
+    goes_on = control is not None and control.goes_on and not boundary
     levels = []
     for n in range(count):
         if n:
-            colours, region = _coarser(colours, region)
+            colours, region = _coarser(colours, region, goes_on)
         levels.append(_level(colours, region, parameters, boundary, arithmetic))
     blocks, block = _blocks(levels[-1], parameters.block)
     held = _frozen(pixels), _frozen(mask), parameters, tuple(levels), blocks, block, boundary
-    return Exemplar(*held, arithmetic=arithmetic)
+    return Exemplar(*held, arithmetic=arithmetic, control=control)
 
 
 def shrunk(exemplar: Exemplar, detail: int) -> Exemplar:
@@ -135,19 +158,22 @@ def shrunk(exemplar: Exemplar, detail: int) -> Exemplar:
         blocks, block = _blocks(levels[-1], exemplar.parameters.block)
     finer = *(_frozen(colours) for colours, _ in reversed(below)), *exemplar.finer
     held = _frozen(pixels), _frozen(region), exemplar.parameters, levels, blocks, block, exemplar.boundary, finer
-    return Exemplar(*held, arithmetic=exemplar.arithmetic)
+    control = None if exemplar.control is None else exemplar.control.coarser(detail)
+    return Exemplar(*held, arithmetic=exemplar.arithmetic, control=control)
 
 
 def _pyramid(exemplar: Exemplar, count: int) -> list[tuple[np.ndarray, np.ndarray]]:
     """So many levels of colours, 0 outside the region, and region."""
-    mask = exemplar.mask
-    found = [(np.where(mask[..., None], premultiplied(exemplar.pixels), np.float32(0.0)), mask)]
+    mask, colours = exemplar.mask, premultiplied(exemplar.pixels)
+    goes_on = exemplar.control is not None and exemplar.control.goes_on and not exemplar.boundary
+    found = [(colours if goes_on else np.where(mask[..., None], colours, np.float32(0.0)), mask)]
     for _ in range(count - 1):
-        found.append(_coarser(*found[-1]))
+        found.append(_coarser(*found[-1], goes_on))
     return found
 
 
-def _region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters, arithmetic: int) -> np.ndarray:
+def region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters, arithmetic: int) -> np.ndarray:
+    """Returns the region that is learnt from, bool (h, w); FieldError where there is none."""
     height, width = pixels.shape[:2]
     if max(height, width) > EXAMPLE_SIDE:
         raise FieldError("example", f"{width} x {height} pixels", f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}")
@@ -171,7 +197,7 @@ def _smoothed(mask: np.ndarray, sigma: float, arithmetic: int) -> np.ndarray:
     return out
 
 
-def _level_count(mask: np.ndarray, parameters: Parameters, boundary: bool) -> int:
+def level_count(mask: np.ndarray, parameters: Parameters, boundary: bool) -> int:
     """As many as were asked for and there is room for, else so many that the coarsest is small."""
     rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
     shorter = int(min(rows[-1] - rows[0], columns[-1] - columns[0])) + 1
@@ -181,9 +207,11 @@ def _level_count(mask: np.ndarray, parameters: Parameters, boundary: bool) -> in
     return min(MOST_LEVELS, max(1, (shorter // least).bit_length()))
 
 
-def _coarser(colours: np.ndarray, region: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the next level of colours (h, w, 4) and region (h, w)."""
+def _coarser(colours: np.ndarray, region: np.ndarray, goes_on: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the next level of colours (h, w, 4) and region (h, w), beyond which colours may go on."""
     above = halved_region(region)
+    if goes_on:
+        return halved(colours, np.ones_like(region)), above
     return halved(colours, region) * above[..., None], above
 
 
@@ -230,6 +258,19 @@ def _by_count(region: np.ndarray, bits: np.ndarray) -> tuple[np.ndarray, np.ndar
     order = np.argsort(counts, kind="stable")
     names = ((rows << 16) | columns)[order].astype(np.int32)
     return names, np.searchsorted(counts[order], np.arange(COUNTS + 1)).astype(np.int32)
+
+
+def by_way(level: ExampleLevel, ways: np.ndarray, number: int) -> ExampleLevel:
+    """Returns a level whose pixels are listed for each of so many ways that they run: `ways`, (h, w)."""
+    own = ways[level.order >> 16, level.order & 0xFFFF]
+    names, starts, before = [], [], 0
+    for way in range(number):
+        names.append(level.order[own == way])
+        counts = np.bitwise_count(level.bits[names[-1] >> 16, names[-1] & 0xFFFF])
+        starts.append(before + np.searchsorted(counts, np.arange(COUNTS + 1)))
+        before += len(names[-1])
+    order, first = np.concatenate(names), np.concatenate(starts).astype(np.int32)
+    return replace(level, order=_frozen(order), starts=_frozen(first))
 
 
 def _blocks(level: ExampleLevel, block: int) -> tuple[np.ndarray, int]:

@@ -50,7 +50,7 @@ class Field(NamedTuple):
     fits: Callable[[Any], bool]
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     text = str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
     return _clipped(text)
 
@@ -117,14 +117,34 @@ def check(name: str, value: Any, place: str) -> None:
 
 
 def read_toml(data: bytes) -> Parameters:
-    """Returns the parameters in a file's bytes; `title` and `group`, under which a palette lists the example, are
-    none of them.
+    """Returns the parameters in a file's bytes; `title` and `group`, under which a palette lists the example, and its
+    `maps` are none of them.
 
     FieldError names the line and the field.
     """
+    told, text = _told(data)
+    for field in ("title", "group"):
+        name = told.pop(field, "")
+        if not isinstance(name, str):
+            raise FieldError(f"line {line_of(text, field)}, {field}", _shown(name), "a name to list the example under")
+    if not isinstance(told.pop("maps", {}), dict):
+        raise FieldError(f"line {line_of(text, 'maps')}, maps", "something else", "a table of maps")
+    for field, value in told.items():
+        check(field, value, f"line {line_of(text, field)}, {_clipped(field)}")
+    return with_values(Parameters(), told)
+
+
+def map_table(data: bytes) -> dict[str, object]:
+    """Returns what the bytes of such a file tell of maps."""
+    found = _told(data)[0].get("maps", {})
+    return found if isinstance(found, dict) else {}
+
+
+def _told(data: bytes) -> tuple[dict[str, Any], str]:
+    """Returns what a file tells, and its text."""
     try:
         text = data.decode("utf-8")
-        told = tomllib.loads(text)
+        return tomllib.loads(text), text
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         raise FieldError(f"line {line}", "bytes that are not UTF-8", "TOML") from None
@@ -134,13 +154,6 @@ def read_toml(data: bytes) -> Parameters:
         raise FieldError("line 1", "brackets too deep", "TOML") from None
     except ValueError:  # of a whole number with thousands of digits
         raise FieldError("line 1", "a number too long", "TOML") from None
-    for field in ("title", "group"):
-        name = told.pop(field, "")
-        if not isinstance(name, str):
-            raise FieldError(f"line {line_of(text, field)}, {field}", _shown(name), "a name to list the example under")
-    for field, value in told.items():
-        check(field, value, f"line {line_of(text, field)}, {_clipped(field)}")
-    return with_values(Parameters(), told)
 
 
 def line_of(text: str, field: str) -> int:

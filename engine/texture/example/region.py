@@ -20,10 +20,21 @@ from engine.numeric.address import Rect
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
 from engine.numeric.neighbourhood import RADIUS
-from engine.texture.example import correction, starts, tiles
+from engine.texture.example import correction, starts, tiles, told
 from engine.texture.example.correction import REACH
 from engine.texture.example.exemplar import Exemplar
-from engine.texture.example.region_window import MARGIN, OUTSIDE, SUBPASSES, Example, Rules, Window, window_of
+from engine.texture.example.region_value import Filled as Filled
+from engine.texture.example.region_value import Region as Region
+from engine.texture.example.region_window import (
+    MARGIN,
+    OUTSIDE,
+    SUBPASSES,
+    Example,
+    Rules,
+    Window,
+    WindowPlace,
+    window_of,
+)
 from engine.texture.example.rules import example_of, rules_of
 from engine.texture.example.tiles import NONE, Tiles
 
@@ -43,44 +54,6 @@ Square = tuple[Rect, int]  # and how many pixels around it take part
 Filling = tuple[float, Rect, np.ndarray | None]  # the part done, a square, and what it is filled with if it is known
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Filled:
-    """A level as it was refined: for which region, from which sources one level coarser; `sources`: int32 planes, one
-    for each pass, the last of which counts."""
-
-    mask: Tiles = NONE
-    above: Tiles = NONE
-    sources: Tiles = NONE
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Region:
-    """`masks`: uint8 tiles of one plane, the region at each level, the finest first; `levels`: what is refined."""
-
-    exemplar: Exemplar
-    seed: int
-    masks: tuple[Tiles, ...]
-    levels: tuple[Filled, ...]
-
-    def fresh(self, level: int) -> bool:
-        """Tells whether a level, and so every coarser one, is as it will stay for this region."""
-        count = len(self.levels)
-        return all(self._agrees(n) for n in range(level, count))
-
-    def _agrees(self, n: int) -> bool:
-        own = self.levels[n]
-        return own.mask is self.masks[n] and own.above is self._above(n)
-
-    def _above(self, n: int) -> Tiles:
-        return self.levels[n + 1].sources if n + 1 < len(self.levels) else NONE
-
-    @property
-    def finest(self) -> int:
-        """Returns the finest level that is refined; as many as there are levels if none is."""
-        count = len(self.levels)
-        return next((n + 1 for n in reversed(range(count)) if not self._agrees(n)), 0)
-
-
 @dataclass(frozen=True, slots=True)
 class Step:
     """How far a refinement has come: the region with all levels that are finished, and the part done, 0..1, of the one
@@ -94,11 +67,15 @@ class Step:
 def empty(exemplar: Exemplar, seed: int = 0) -> Region:
     """Makes a region without a pixel, of an example and a seed."""
     count = len(exemplar.levels)
-    return Region(exemplar, seed, (NONE,) * count, (Filled(),) * count)
+    stored = exemplar.control is not None and exemplar.control.stored > 0
+    return Region(exemplar, seed, (NONE,) * count, (Filled(),) * count, (NONE,) * count if stored else ())
 
 
-def painted(region: Region, rect: Rect, mask: np.ndarray, erase: bool = False) -> Region:
-    """With the pixels of `mask`, bool (h, w) over `rect`, added or erased; nothing is refined."""
+def painted(
+    region: Region, rect: Rect, mask: np.ndarray, erase: bool = False, values: np.ndarray | None = None
+) -> Region:
+    """With the pixels of `mask`, bool (h, w) over `rect`, added or erased; nothing is refined.  `values`: uint8 (C, h,
+    w), what stored control channels tell of them; None for what they usually tell."""
     if rect.empty or not mask.any():
         return region
     step = 1 << len(region.masks) - 1
@@ -107,12 +84,19 @@ def painted(region: Region, rect: Rect, mask: np.ndarray, erase: bool = False) -
     tiles.gathered(region.masks[0], whole, held)
     part = held[0][rect.slices(whole)]
     part[mask] = 0 if erase else 1
-    masks, inside = [], held[0]
+    masks, insides, place = [], [held[0]], whole
     for n, old in enumerate(region.masks):
         if n:
-            whole, inside = whole.zoomed(-1), halved_region(inside)
-        masks.append(tiles.laid(old, whole, inside[None], 0, whole))
-    return replace(region, masks=tuple(masks))
+            place = place.zoomed(-1)
+            insides.append(halved_region(insides[-1]))
+        masks.append(tiles.laid(old, place, insides[n][None], 0, place))
+    if not region.told:
+        return replace(region, masks=tuple(masks))
+    if values is None:
+        assert region.exemplar.control is not None
+        usual = np.array(region.exemplar.control.usual, np.uint8)
+        values = np.broadcast_to(usual[:, None, None], (len(usual), *mask.shape))
+    return replace(region, masks=tuple(masks), told=told.told_laid(region.told, whole, insides, (rect, mask), values))
 
 
 def refined(region: Region, upto: int = 0, threads: Executor | None = None) -> Region:
@@ -132,7 +116,7 @@ def refining(region: Region, upto: int = 0, threads: Executor | None = None) -> 
         for done, found in _refining_level(region, n, threads):
             sources = found
             yield Step(region, n, done)
-        level = Filled(region.masks[n], region._above(n), sources)
+        level = Filled(region.masks[n], region.above(n), sources, region.told[n] if region.told else NONE)
         region = replace(region, levels=(*region.levels[:n], level, *region.levels[n + 1 :]))
         yield Step(region, n, 1.0)
 
@@ -216,7 +200,8 @@ def _squares(region: Region, n: int, shared: bool) -> list[Square]:
     more of them if they are to be shared out."""
     old = region.levels[n]
     altered = tiles.changed_rect(old.mask, region.masks[n], 0)
-    altered = altered.union(tiles.changed_rect(old.above, region._above(n), OUTSIDE).zoomed(1))
+    altered = altered.union(told.altered(region, n, altered))
+    altered = altered.union(tiles.changed_rect(old.above, region.above(n), OUTSIDE).zoomed(1))
     if altered.empty:
         return []
     reach = REACH * _passes(region, n)
@@ -227,10 +212,12 @@ def _squares(region: Region, n: int, shared: bool) -> list[Square]:
         whole = _filled_part(region, n, whole)
         return [] if whole.empty else [(whole, MARGIN)]
     whole = whole.intersect(tiles.hull(old.mask).union(tiles.hull(region.masks[n])))  # beyond it nothing is to be done
-    keys = tiles.changed(old.mask, region.masks[n])
-    near = [tiles.rect_of(key).grown(RADIUS + reach) for key in keys]
+    keys, rims = tiles.changed(old.mask, region.masks[n]), told.rim_reach(region, n)
+    near = [tiles.rect_of(key).grown(RADIUS + reach + rims) for key in keys]
+    if region.told:
+        near += [tiles.rect_of(key).grown(reach) for key in tiles.changed(old.told, region.told[n])]
     if not _coarsest(region, n):
-        above = tiles.changed(old.above, region._above(n))
+        above = tiles.changed(old.above, region.above(n))
         near += [tiles.rect_of(key).zoomed(1).grown(RADIUS + reach) for key in above]
     found: dict[tuple[int, int], Rect] = {}
     for rect in near:
@@ -252,17 +239,9 @@ def _square_keys(rect: Rect) -> Iterator[tuple[int, int]]:
             yield y, x
 
 
-def _masks(region: Region, n: int, rect: Rect) -> np.ndarray:
-    """Returns what belongs to the region now, and before: uint8 (2, h, w)."""
-    both = np.zeros((2, 1, rect.height, rect.width), np.uint8)
-    tiles.gathered(region.masks[n], rect, both[0])
-    tiles.gathered(region.levels[n].mask, rect, both[1])
-    return both[:, 0]
-
-
 def _filled_part(region: Region, n: int, square: Rect) -> Rect:
     """Returns the part of a square beyond which there is no region, nor was."""
-    y0, y1, x0, x1 = tiles.bounds(_masks(region, n, square))
+    y0, y1, x0, x1 = tiles.bounds(region.both_masks(n, square))
     return Rect(square.x0 + x0, square.y0 + y0, square.x0 + x1, square.y0 + y1)
 
 
@@ -271,19 +250,20 @@ def _readying(region: Region, n: int, square: Rect, room: int) -> Generator[tupl
     old = region.levels[n]
     rect = square.grown(room)
     size = rect.height, rect.width
-    mask, was = _masks(region, n, rect)
+    mask, was = region.both_masks(n, rect)
     planes = np.full((_passes(region, n) + 1, *size), OUTSIDE, np.int32)
     tiles.gathered(old.sources, rect, planes if _coarsest(region, n) else planes[1:])
     yield 0.0, None
     hashes = hash_plane(fold_key(_DOMAIN, region.seed, n), rect.x0, rect.y0, rect.width, rect.height)
-    window = window_of(mask, was, planes, hashes, (rect.y0 & 1, rect.x0 & 1))
+    place = WindowPlace(rect.y0 & 1, rect.x0 & 1, told.told_within(region, n, rect))
+    window = window_of(mask, was, planes, hashes, place)
     yield 0.0, None
     if _coarsest(region, n):
         _start_coarsest(region, window, rect)
     else:
         above = rect.zoomed(-1)
         parents, before = np.full((2, 1, above.height, above.width), OUTSIDE, np.int32)
-        tiles.gathered_last(region._above(n), above, parents)
+        tiles.gathered_last(region.above(n), above, parents)
         tiles.gathered_last(old.above, above, before)
         starts.start_finer(window, parents[0], before[0], example_of(region.exemplar, n))
     return window

@@ -20,7 +20,7 @@ OUTSIDE = -1  # instead of a source, where there is no region
 
 class Example(NamedTuple):
     """A level of the exemplar; `compared` flat; `shapes`: uint64, the bits of those of `order` that do not lie wholly
-    inside, which come first, and FULL."""
+    inside, which come first, and FULL; `told`, `turns`: its control channels, as `Control` has them."""
 
     compared: np.ndarray
     region: np.ndarray
@@ -28,12 +28,15 @@ class Example(NamedTuple):
     order: np.ndarray
     shapes: np.ndarray
     starts: np.ndarray
+    told: np.ndarray
+    turns: np.ndarray
 
 
 class Rules(NamedTuple):
     """`penalty`: energy of a pixel of another shape; `leeway`: so many of those are free; `square`: bits of the
     neighbourhood; `kappa`, `rim_kappa`: 256 (1 + kappa), inside and at a rim; `stride`: of the search through all
-    candidates, 0 for none; `rims`: whether the region's shape counts."""
+    candidates, 0 for none; `rims`: whether the region's shape counts; `told`: int32, the weights of control channels,
+    none at levels where they do not count."""
 
     weights: np.ndarray
     square: np.uint64
@@ -43,6 +46,7 @@ class Rules(NamedTuple):
     rim_kappa: int
     stride: int
     rims: bool
+    told: np.ndarray
 
 
 class Window(NamedTuple):
@@ -50,7 +54,8 @@ class Window(NamedTuple):
     the sources at this moment; `shown`, `care`: int16 (h * w * 4), their values, and -1 inside the region; `planes`:
     int32 (passes + 1, h, w), the sources after each pass, from the start (0) on, as they were until they are corrected;
     `need`: uint8 (passes + 1, h, w), what is to be corrected in each; `hashes`: uint64 (h, w), by place; `y`, `x`:
-    parity of the first row and column; `fresh`: nothing of it was there before."""
+    parity of the first row and column; `fresh`: nothing of it was there before; `told`: uint8 (C, h, w), control
+    channels."""
 
     mask: np.ndarray
     was: np.ndarray
@@ -64,11 +69,18 @@ class Window(NamedTuple):
     y: int
     x: int
     fresh: bool
+    told: np.ndarray
 
 
-def window_of(
-    mask: np.ndarray, was: np.ndarray, planes: np.ndarray, hashes: np.ndarray, parity: tuple[int, int]
-) -> Window:
+class WindowPlace(NamedTuple):
+    """`y`, `x`: parity of a window's first row and column; `told`: what its control channels tell now, and before."""
+
+    y: int
+    x: int
+    told: tuple[np.ndarray, np.ndarray]
+
+
+def window_of(mask: np.ndarray, was: np.ndarray, planes: np.ndarray, hashes: np.ndarray, place: WindowPlace) -> Window:
     """Returns a window whose shapes, and what they ask for, are known; a `starts` function has to follow."""
     size = mask.shape
     bits, need = np.zeros(size, np.uint64), np.zeros(planes.shape, np.uint8)
@@ -76,8 +88,10 @@ def window_of(
     region_bits(mask, bits)
     fresh = not was.any()
     _mark_shapes(mask, was, need, fresh)
+    if not fresh and len(place.told[0]):
+        _mark_told(*place.told, mask, need)
     now = np.full(size, OUTSIDE, np.int32)
-    return Window(mask, was, bits, now, shown, care, planes, need, hashes, *parity, fresh)
+    return Window(mask, was, bits, now, shown, care, planes, need, hashes, place.y, place.x, fresh, place.told[0])
 
 
 @inlined
@@ -117,6 +131,18 @@ def _mark_shapes(mask: np.ndarray, was: np.ndarray, need: np.ndarray, fresh: boo
             if around[y, x]:
                 for p in range(need.shape[0]):
                     need[p, y, x] = 1
+
+
+@kernel
+def _mark_told(told: np.ndarray, before: np.ndarray, mask: np.ndarray, need: np.ndarray) -> None:
+    """Asks for all pixels of which control channels tell something else than before, in every pass."""
+    height, width = mask.shape
+    for c in range(told.shape[0]):
+        for y in range(height):
+            for x in range(width):
+                if told[c, y, x] != before[c, y, x] and mask[y, x]:
+                    for p in range(need.shape[0]):
+                        need[p, y, x] = 1
 
 
 @inner_uncounted

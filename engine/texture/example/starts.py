@@ -11,10 +11,13 @@ import numpy as np
 from engine.numeric.hashing import mix64
 from engine.numeric.kernel import Array, Int, inlined, inner_uncounted, uncounted
 from engine.numeric.neighbourhood import RADIUS, ones
+from engine.texture.example.channels import told_apart, turned_source, way_of
+from engine.texture.example.exemplar import COUNTS
 from engine.texture.example.region_window import OUTSIDE, Example, Rules, Window, mark_readers, shape_at, turn_of
 
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
 _DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one
+_PATCHES, _LIKE = 24, 40000  # patches that are drawn to be as told, and the energy that is near enough
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
@@ -109,20 +112,60 @@ def _draw(
                 row, column = y + offset[0], x + offset[1]
                 drawn = patches[row // block, column // block] % np.uint64(corners.size)
                 start = corners[drawn] + np.int32((row % block) << 16 | (column % block))
-                starts[y, x] = _shaped(window.bits[y, x], start, window.hashes[y, x], example, rules)
+                if rules.told.size:
+                    chance, middle = patches[row // block, column // block], np.int32((block >> 1) << 16 | block >> 1)
+                    drawing = chance, corners, np.int32((row % block) << 16 | column % block), middle
+                    start = _as_told(window, y, x, start, drawing, example, rules)
+                starts[y, x] = _shaped(window, y, x, start, example, rules)
 
 
 @inner_uncounted
-def _shaped(bits: Int, start: Int, h: Int, example: Example, rules: Rules) -> Int:
+def _as_told(
+    window: Window, y: Int, x: Int, start: Int, drawing: tuple[Int, Array, Int, Int], example: Example, rules: Rules
+) -> Int:
+    """Returns the pixel of one of some patches, all drawn for the same place and turned as the example is wanted, that
+    is most like what control channels tell; `start` if it is as good as any.
+
+    `drawing`: the hash of the patch, the names of the pixels where patches may begin, how far its pixel lies from
+    there, and its middle, as names do.
+    """
+    chance, corners, place, middle = drawing
+    least, best = told_apart(window, y, x, example, start, rules), start
+    for k in range(_PATCHES):
+        if least < _LIKE:
+            break
+        if k:
+            chance = mix64(chance + _GOLDEN)
+        corner = np.int32(corners[chance % np.uint64(corners.size)])
+        name = corner + place
+        if example.turns.size:
+            turned = turned_source(example, corner + middle, window.told[0, y, x])
+            row = (turned >> 16) + (place >> 16) - (middle >> 16)
+            column = (turned & 0xFFFF) + (place & 0xFFFF) - (middle & 0xFFFF)
+            inside = 0 <= row < example.region.shape[0] and 0 <= column < example.region.shape[1]
+            if turned >= 0 and inside and example.region[row, column]:
+                name = row << 16 | column
+        e = told_apart(window, y, x, example, name, rules)
+        if e < least:
+            least, best = e, name
+    return best
+
+
+@inner_uncounted
+def _shaped(window: Window, y: Int, x: Int, start: Int, example: Example, rules: Rules) -> Int:
     """`start`, if the shape around it is alike; else the pixel that the hash draws of those with about such a shape, or
-    with the nearest if there are none."""
+    with the nearest if there are none; what control channels tell counts as pixels of another shape."""
     if not rules.rims:
         return start
+    bits, h = window.bits[y, x], window.hashes[y, x]
     if ones(bits ^ example.bits[start >> 16, start & 0xFFFF]) <= _ALIKE:
         return start
-    least, drawn = np.int32(50), np.uint64(0)
-    for i in range(example.order.size):
+    least, drawn = np.int32(1 << 20), np.uint64(0)
+    way = way_of(window, y, x, example)
+    for i in range(example.starts[way], example.starts[way + COUNTS]):
         apart = max(_DRAWN, ones(bits ^ shape_at(example, i)))
+        if rules.told.size:
+            apart += told_apart(window, y, x, example, example.order[i], rules) // _LIKE
         if apart <= least:
             chance = mix64(h + np.uint64(i) * _GOLDEN)
             if apart < least or chance > drawn:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from engine.numeric.address import Rect
+from engine.numeric.arithmetic import EVERYWHERE
+from engine.texture.example.control import Channel, ordered
+from engine.texture.example.controlled import analysed_with
 from engine.texture.example.exemplar import Exemplar, analysed
 from engine.texture.example.parameters import Parameters
 
@@ -33,3 +37,19 @@ def unbounded(side: int = 48, **values) -> Exemplar:
     inner = blob(2 * side)[0][side // 2 : -side // 2, side // 2 : -side // 2].copy()
     inner[..., 3] = 255
     return analysed(inner, None, Parameters(**values))
+
+
+def controlled(side: int = 48, turns: int = 8, width: int = 12, **values) -> Exemplar:
+    """The same with its rim, an orientation, a map of its own and a wide rim."""
+    channels = ordered([Channel("orientation", 1.0, turns), Channel("glow", 0.5), Channel("rim", 1.0, 1, width)])
+    planes = np.zeros((3, side, side), np.uint8)
+    planes[1] = np.arange(0, 250, 250 / side)[:side]
+    return analysed_with(blob(side)[0], None, Parameters(**values), (channels, planes), EVERYWHERE)
+
+
+def told_at(exemplar: Exemplar, rect: Rect) -> np.ndarray | None:
+    """What two channels tell of places, some of it alike over many pixels."""
+    if exemplar.control is None:
+        return None
+    y, x = np.mgrid[rect.y0 : rect.y1, rect.x0 : rect.x1]
+    return np.stack([(x >> 3) * 20 & 255, (y >> 4) * 60 & 255]).astype(np.uint8)
