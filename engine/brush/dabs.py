@@ -19,7 +19,7 @@ from engine.brush.felt_dabs import (
 )
 from engine.brush.samples import cleaned
 from engine.brush.settings import Brush
-from engine.brush.targets import FLOW, HARDNESS, OPACITY, RADIUS, SPACING
+from engine.brush.targets import COLOUR_TARGETS, FLOW, HARDNESS, OPACITY, RADIUS, SPACING
 from engine.numeric.hashing import fold_key
 from engine.numeric.kernel import Array, kernel
 from engine.numeric.oklch import lab_of, shift_colours
@@ -45,7 +45,8 @@ class Stroker:
         plan = np.zeros(felt.HAS_TINTS + 1, np.int64) if self._felt is None else self._felt.plan
         self._tints = int(plan[felt.HAS_TINTS])
         self._width = (TURNED_COLUMNS if plan[felt.HAS_TURNS] else DAB) + self._tints
-        self._lab = lab_of(brush.rgb) if self._tints else None
+        self._plain = brush.rgb if brush.wet is not None and not set(COLOUR_TARGETS) & set(brush.dynamics) else None
+        self._lab = lab_of(brush.rgb) if self._tints and self._plain is None else None
         self._key = np.uint64(key)
         self._state = np.zeros(6 if self._felt is None else felt.STATE)
         self._columns = 0  # of the points
@@ -98,8 +99,10 @@ class Stroker:
             dabs = np.empty((count, self._width))
             self._state = before
             self._count(points, dabs, rest)
+        first = self._width - self._tints
+        if self._tints and self._plain is not None:
+            dabs[:count, first : first + 3] = self._plain
         if self._lab is not None:
-            first = self._width - self._tints
             colours = dabs[:count, first : first + 3].copy()
             shift_colours(colours, self._lab)
             dabs[:count, first : first + 3] = colours

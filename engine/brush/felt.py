@@ -79,9 +79,13 @@ class Feeling(NamedTuple):
 
 def feels(brush: Brush) -> bool:
     """Tells whether a brush's dabs hang on more than the pen's pressure, or are more than round."""
-    return brush.shape != ROUND or any(
-        isinstance(curve, Mapping) or (name in FOLLOWERS and name not in DYNAMIC)
-        for name, curve in brush.dynamics.items()
+    return (
+        brush.shape != ROUND
+        or brush.wet is not None
+        or any(
+            isinstance(curve, Mapping) or (name in FOLLOWERS and name not in DYNAMIC)
+            for name, curve in brush.dynamics.items()
+        )
     )
 
 
@@ -90,7 +94,7 @@ def steadied(brush: Brush) -> Brush:
     if not feels(brush):
         return brush
     kept = {name: knots_of(brush.dynamics[name]) for name in DYNAMIC if name in brush.dynamics}
-    return replace(brush, shape=ROUND, dynamics=Map(kept))
+    return replace(brush, shape=ROUND, dynamics=Map(kept), wet=None)
 
 
 def is_turned(brush: Brush) -> bool:
@@ -104,9 +108,21 @@ def is_turned(brush: Brush) -> bool:
 
 def tints_of(brush: Brush) -> int:
     """Returns how many tints each dab has: three of its colour, and one of each component of the ink; 0 where none of
-    these follow anything."""
+    these follow anything, and the brush is not wet."""
     names = {*COLOUR_TARGETS, *(f"ink_{n + 1}" for n in range(len(brush.ink)))}
-    return 3 + len(brush.ink) if brush.row.lays_ink and names & set(brush.dynamics) else 0
+    own = brush.row.lays_ink and (brush.wet is not None or bool(names & set(brush.dynamics)))
+    return 3 + len(brush.ink) if own else 0
+
+
+def hair_size(brush: Brush) -> float:
+    """Returns how large the largest hairs of a tip may be, in its radii."""
+    return fine_of(brush) * _LARGEST
+
+
+def fine_of(brush: Brush) -> float:
+    """Returns how large the hairs of a tip are on the whole, in its radii; 1 of a tip without."""
+    count = brush.shape.bristles
+    return min(1.0, _STOUT * float(np.sqrt(brush.shape.ratio / count))) if count else 1.0
 
 
 def radii_around(brush: Brush) -> float:
@@ -166,8 +182,8 @@ def with_hairs(felt: Feeling, brush: Brush, key: int) -> Feeling:
     away = np.sqrt((number + 0.25 + 0.5 * far) / count)
     angle = (number * _GOLDEN + (turn - 0.5) * 0.5) * _TURN
     places = away * mapped(cos, angle), away * mapped(sin, angle)
-    fine = min(1.0, _STOUT * float(np.sqrt(brush.shape.ratio / count)))
-    return felt._replace(hairs=np.stack([*places, _LEAST + (_LARGEST - _LEAST) * size, load], axis=1), fine=fine)
+    hairs = np.stack([*places, _LEAST + (_LARGEST - _LEAST) * size, load], axis=1)
+    return felt._replace(hairs=hairs, fine=fine_of(brush))
 
 
 def plain_chance(key: int, number: int, slot: int) -> float:

@@ -17,6 +17,7 @@ from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.settings import Brush
 from engine.brush.stamp import Stamp
 from engine.brush.tinted_ink import TintedInk, tinted_ink
+from engine.brush.wet_edit import wet_stamp
 from engine.numeric.address import TILE, TileKey
 from engine.texture.image import ImageSource
 from engine.texture.planes import COLOURS, Planes
@@ -44,6 +45,9 @@ class Painting(Covered):
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
         """Returns A and B of a tile, as `Edit.stamp`; None where nothing changes."""
         assert self.ink is not None
+        if self.brush.wet is not None and self.coverage.tints is not None:
+            wet = wet_stamp(self, key, old)
+            return None if wet is None else self._stained(key, wet)
         covered = self.coverage.tiles.get(key)
         plain = not self.ink.loaded and not self.locked and self.coverage.tints is None
         alike = covered if isinstance(covered, float) and plain else None
@@ -65,13 +69,17 @@ class Painting(Covered):
             coat.load(keep, self.ink.field(key), self.ink.amplitudes, add)
         else:
             coat.lay(keep, self.ink.base, add)
+        made = self._stained(key, Stamp(keep, add, inks, plain=True))
+        if alike is not None:
+            self._flat[alike] = made
+        return made
+
+    def _stained(self, key: TileKey, made: Stamp) -> Stamp:
+        """Turns what the rim has another colour to that, in place."""
         stain = self.coverage.stain
         part = None if stain is None else stain.part(key)
         if stain is not None and part is not None:
-            coat.stain(part, stain.colour, add)
-        made = Stamp(keep, add, inks, plain=True)
-        if alike is not None:
-            self._flat[alike] = made
+            coat.stain(part, stain.colour, made.add)
         return made
 
     def _sway(self, keep: np.ndarray, key: TileKey, old: Planes) -> tuple[tuple[Instance, ...], np.ndarray]:

@@ -15,6 +15,7 @@ from immutables import Map
 from engine.brush import checks
 from engine.brush.checks import BrushError
 from engine.brush.tip_shape import tip_shape_json
+from engine.brush.wet import wet_json
 from engine.checks.values import described
 from engine.numeric.curves import CURVES, EDGES, Shape
 
@@ -251,4 +252,5 @@ WRITERS: dict[str, Callable[[Any], Any]] = {
     "edge": edge_json,
     "tip": tip_json,
     "shape": tip_shape_json,
+    "wet": wet_json,
 }

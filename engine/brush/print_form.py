@@ -8,6 +8,7 @@ import numpy as np
 
 TwoInts = tuple[int, int]
 Plane = np.ndarray
+ThreePlanes = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 class Print(Protocol):
@@ -15,6 +16,13 @@ class Print(Protocol):
 
     def lay(self, coverage: Plane, discs: np.ndarray, which: np.ndarray, count: TwoInts, corner: TwoInts) -> None:
         """Lays the discs `which` into a tile's coverage, as `Pattern.lay`."""
+        ...
+
+    def lay_tinted(
+        self, planes: ThreePlanes, discs: np.ndarray, which: np.ndarray, count: TwoInts, corner: TwoInts
+    ) -> None:
+        """As `lay`, each disc with its tints, its last columns: into coverage (128, 128), and tints (n, 128, 128), by
+        a plane of zeros between them."""
         ...
 
     def of_copy(self, number: int) -> Print:

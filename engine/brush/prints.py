@@ -15,11 +15,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from engine.brush import tip
+from engine.brush.blending import blend
 from engine.brush.copies import NO_COPIES, Copies, Torus
 from engine.brush.discs import CEILING, CX, CY, DISC, RATE, RIN2, ROUT
 from engine.brush.felt import is_turned
 from engine.brush.ink import Texture
-from engine.brush.print_form import Print, TwoInts
+from engine.brush.print_form import Print, ThreePlanes, TwoInts
 from engine.brush.settings import Brush
 from engine.brush.tip import Pattern, between_pixels, sample_for, ways_of
 from engine.numeric.address import TILE
@@ -44,12 +45,19 @@ class Oval:
 
     def lay(self, coverage: Array, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
         """Lays the discs `which` into a tile's coverage, as `Pattern.lay`."""
-        kind, key, planes, sizes = _PLAIN, 0, np.ones(4, np.float32), np.array([2])
-        if self.pattern is not None:
-            kind = _WINDOW if self.pattern.windows else _SAMPLE
-            key, planes, sizes = self.pattern.key, self.pattern.planes, self.pattern.sizes
-        fill = kind, np.uint64(key), planes, sizes
-        _lay_ovals(coverage, discs, which, count, corner, self.ways, fill)
+        lay_ovals(coverage, discs, which, count, corner, self.ways, self.fill)
+
+    @property
+    def fill(self) -> tuple[int, np.uint64, np.ndarray, np.ndarray]:
+        """Gives what they are filled with, as `lay_ovals` wants it."""
+        if self.pattern is None:
+            return _PLAIN, np.uint64(0), np.ones(4, np.float32), np.array([2])
+        kind = _WINDOW if self.pattern.windows else _SAMPLE
+        return kind, np.uint64(self.pattern.key), self.pattern.planes, self.pattern.sizes
+
+    def lay_tinted(self, planes: ThreePlanes, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
+        """As `Print.lay_tinted`."""
+        _lay_tinted(planes, discs, which, count, corner, (self.ways, self.fill))
 
     def of_copy(self, number: int) -> Oval:
         """Returns the ellipses of one copy alone."""
@@ -79,9 +87,10 @@ def for_copies(made: Print | None, copies: Copies | Torus) -> Print | None:
 
 
 @inner
-def _onto(disc: Array, way: Array, ratio: float) -> tuple[float, float, float, float]:
-    """The matrix that brings a place of a dab onto the round tip: row by row."""
-    cos, sin, thin = disc[DISC], disc[DISC + 1], 1.0 / ratio
+def onto_round(turn: Array, way: Array, ratio: float) -> tuple[float, float, float, float]:
+    """The matrix that brings a place of a dab, whose `turn` begins with cosine and sine, onto the round tip: row by
+    row."""
+    cos, sin, thin = turn[0], turn[1], 1.0 / ratio
     return (
         cos * way[0] + sin * way[2],
         cos * way[1] + sin * way[3],
@@ -122,7 +131,7 @@ def _sampled(x: float, y: float, radius: float, planes: Array, sizes: Array) -> 
 
 
 @kernel
-def _lay_ovals(
+def lay_ovals(
     coverage: Array,
     discs: Array,
     which: Array,
@@ -139,9 +148,9 @@ def _lay_ovals(
         ratio = max(disc[DISC + 2], min(1.0, _THINNEST / radius))
         fade = min(1.0, disc[DISC + 2] * radius / _THINNEST)
         way = ways[(number + index) % each * ways.shape[0] // each]
-        onto = _onto(disc, way, ratio)
+        onto = onto_round(disc[DISC:], way, ratio)
         wide = (radius * ratio + _ROOM) / (radius + _ROOM)
-        around = _onto(disc, way, wide)
+        around = onto_round(disc[DISC:], way, wide)
         cx, cy = disc[CX] - corner[0], disc[CY] - corner[1]
         windowed = _window(disc, cx, cy, (number + index) // each, fill)
         ceiling, rate, inside = np.float32(disc[CEILING] * fade), np.float32(disc[RATE]), math.sqrt(disc[RIN2])
@@ -173,3 +182,20 @@ def _window(
     room = np.uint64(max(1, fill[3][0] - 2 * int(disc[ROUT]) - 3))
     x = math.floor(cx - disc[ROUT]) - np.int64((h & np.uint64(0xFFFFFFFF)) % room)
     return x, math.floor(cy - disc[ROUT]) - np.int64((h >> np.uint64(32)) % room)
+
+
+@kernel
+def _lay_tinted(
+    planes: tuple[Array, Array, Array],
+    discs: Array,
+    which: Array,
+    count: tuple[int, int],
+    corner: tuple[int, int],
+    how: tuple[Array, tuple[int, np.uint64, Array, Array]],
+) -> None:
+    """Lays ellipses and their tints, one after the other."""
+    for k in range(which.shape[0]):
+        one = which[k : k + 1]
+        lay_ovals(planes[0], discs, one, count, corner, how[0], how[1])
+        lay_ovals(planes[1], discs, one, count, corner, how[0], how[1])
+        blend(planes[0], planes[1], planes[2], discs[which[k]], corner[0], corner[1])

@@ -17,6 +17,7 @@ from engine.brush.checks import BrushError, Knots
 from engine.brush.modes import MODES, Mode
 from engine.brush.parts import COMPONENTS_CAP, Component, Edge, Surface, Tip
 from engine.brush.tip_shape import ROUND, TipShape, tip_shape
+from engine.brush.wet import Wet, wet
 from engine.checks.values import described
 from engine.numeric.curves import Shape
 
@@ -114,7 +115,8 @@ class Brush:
     `height`: what it heaps on the layer of heights in place of its paint, in pixels of the stroke's level, negative to
     carve, "auto" for a quarter of the radius; None: its paint, by whose brightness that layer is as high.  `impasto`:
     how thick its paint lies on other layers, likewise.
-    `shape`: of its tip.  `dynamics`: by target (module `targets`), the curve of pen pressure by which its value is
+    `shape`: of its tip.  `wet`: how it mixes its paint with what lies there; None: not at all.  `dynamics`: by target
+    (module `targets`), the curve of pen pressure by which its value is
     multiplied, or those of several inputs by their names; the value of what has no curve stays as it is.
     `extra`: members of the JSON form that this version does not know.
     """
@@ -142,6 +144,7 @@ class Brush:
     height: Thickness = None
     impasto: float = 0.0
     shape: TipShape = ROUND
+    wet: Wet | None = None
     dynamics: Map[str, Any] = field(default_factory=lambda: Map({"opacity": "pressure"}))
     extra: Map[str, Any] = field(default_factory=Map)
 
@@ -223,6 +226,7 @@ _RARE: dict[str, Any] = {
     "height": None,
     "impasto": 0.0,
     "shape": ROUND,
+    "wet": None,
 }
 
 
@@ -266,5 +270,6 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "height": _optional(_height),
     "impasto": lambda value, place: checks.number(value, place, -MOST_HEIGHT, MOST_HEIGHT),
     "shape": tip_shape,
+    "wet": _optional(wet),
     "dynamics": follow_curves.dynamics,
 }

@@ -6,20 +6,22 @@ what a component adds is linear in C, and is known from what it adds over black 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from engine.brush import sway
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.settings import Brush
-from engine.numeric.address import TileKey
+from engine.numeric.address import Rect, TileKey
 from engine.texture.image import ImageSource
 from engine.texture.planes import sort_key
 from engine.texture.record import Instance
 
 _LOWEST, _HIGHEST = "#000000", "#ffffff"
+_SAMPLE = Rect(0, 0, 64, 64)  # by whose pixels the mean of a texture is told
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -48,6 +50,45 @@ class TintedInk(Ink):
     """An ink that is also known under tints: a colour, and a factor for each of its `parts`."""
 
     parts: tuple[_Part, ...] = ()
+    level: int = 0
+    _means: dict[Instance, np.ndarray] = field(default_factory=dict, repr=False)
+
+    def mean_of(self, made: Instance) -> np.ndarray:
+        """Returns the mean of what a texture looks like, float32 (1 or 3,): the same bits everywhere."""
+        if made not in self._means:
+            seen = made.appearance(self.level, _SAMPLE)[:3]
+            total = [math.fsum(plane.ravel().tolist()) / _SAMPLE.area for plane in seen]
+            self._means[made] = np.array(total, np.float32)
+        return self._means[made]
+
+    def mean_under(self, tints: np.ndarray) -> np.ndarray:
+        """Returns the colour that the ink has on the whole under tints, float64 (m, 3 + parts): float64 (m, 3)."""
+        under = tints[:, :3]
+        out = under.copy()
+        for part, factor in zip(self.parts, tints[:, 3:].T, strict=True):
+            out += factor[:, None] * (part.shift.low + part.shift.slope * under)
+            for made, amplitude in part.amplitudes:
+                out += factor[:, None] * ((amplitude.low + amplitude.slope * under) * self.mean_of(made))
+        held: np.ndarray = np.clip(out, 0.0, 1.0)
+        return held
+
+    def rough(
+        self, key: TileKey, colour: np.ndarray, amounts: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
+        """Returns, of a tile, by how much the ink differs from what it is on the whole under one `colour`, float32
+        (3,), float32 (3, 128, 128); the amplitudes of its instances, and these.  `amounts`: of each part, float32
+        (parts, 128, 128)."""
+        found: dict[Instance, np.ndarray] = {}
+        for part, amount in zip(self.parts, amounts, strict=True):
+            for made, amplitude in part.amplitudes:
+                more = (amplitude.low + amplitude.slope * colour)[:, None, None] * amount
+                found[made] = found[made] + more if made in found else more
+        inks = tuple(sorted(found, key=lambda made: sort_key(made.key)))
+        out = np.zeros((3, *amounts.shape[1:]), np.float32)
+        for made in inks:
+            seen = made.appearance(key.level, key.rect)[:3]
+            out += found[made] * (seen - self.mean_of(made)[:, None, None])
+        return out, np.concatenate([found[made] for made in inks]) if inks else out[:0], inks
 
     def tinted(self, key: TileKey, tints: np.ndarray) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
         """Under tints, float32 (3 + parts, 128, 128), of a tile: as `Ink.under`."""
@@ -80,7 +121,7 @@ def tinted_ink(brush: Brush, textures: Mapping[str, Texture | ImageSource], leve
         each = dict.fromkeys((*ends[0], *ends[1]))
         amplitudes = tuple((made, _linear(*(end.get(made, none) for end in ends))) for made in each)
         parts.append(_Part(_linear(low.base, high.base - np.float32(1.0)), amplitudes))
-    return TintedInk(whole.base, whole.loaded, parts=tuple(parts))
+    return TintedInk(whole.base, whole.loaded, parts=tuple(parts), level=level)
 
 
 def _linear(low: np.ndarray, high: np.ndarray) -> _Linear:

@@ -6,17 +6,12 @@ to c + (t - c) k / M, t being the dab's own: a dab that covers in full leaves no
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from engine.brush import discs as kernels
-from engine.brush.discs import CX, CY, ROUT
-from engine.brush.print_form import Print, TwoInts
+from engine.brush.blending import lay_round
+from engine.brush.print_form import Print, ThreePlanes, TwoInts
 from engine.numeric.address import TILE
-from engine.numeric.kernel import Array, kernel
-
-_ZERO, _ONE = np.float32(0.0), np.float32(1.0)
+from engine.numeric.kernel import Array
 
 
 class Tinted:
@@ -36,13 +31,14 @@ class Tinted:
             tints = np.zeros((self._count, TILE, TILE), np.float32) if tints is None else tints.copy()
             self._lent.discard(corner)
         self.tiles[corner] = tints
-        for k in range(len(which)):
-            for plane in (coverage, self._strength):
-                if self._laid is None:
-                    kernels.lay(plane, discs, which, k, k + 1, *corner)
-                else:
-                    self._laid.lay(plane, discs, which[k : k + 1], count, corner)
-            _blend(coverage, self._strength, tints, discs[which[k]], *corner)
+        if self._laid is None:
+            lay_round(coverage, tints, discs, which, corner)
+        else:
+            self._laid.lay_tinted((coverage, self._strength, tints), discs, which, count, corner)
+
+    def lay_tinted(self, planes: ThreePlanes, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
+        """As `Print.lay_tinted`: its own tints take the place of others."""
+        self.lay(planes[0], discs, which, count, corner)
 
     def of_copy(self, number: int) -> Print:
         """Returns what the dabs of one copy alone look like."""
@@ -52,20 +48,3 @@ class Tinted:
         """Returns the tints so far, which later dabs do not change."""
         self._lent = set(self.tiles)
         return dict(self.tiles)
-
-
-@kernel
-def _blend(coverage: Array, strength: Array, tints: Array, disc: Array, left: int, top: int) -> None:
-    """Mixes a disc's tints, its last columns, into those of a tile, by its `strength`, which is cleared."""
-    cx, cy, reach = disc[CX] - left, disc[CY] - top, disc[ROUT] + 2.0
-    own = disc.shape[0] - tints.shape[0]
-    first, last = max(0, math.floor(cx - reach)), min(TILE, math.ceil(cx + reach))
-    for y in range(max(0, math.floor(cy - reach)), min(TILE, math.ceil(cy + reach))):
-        m, k = coverage[y], strength[y]
-        for c in range(tints.shape[0]):
-            t, value = tints[c, y], np.float32(disc[own + c])
-            for x in range(first, last):
-                if k[x] > _ZERO:
-                    t[x] += (value - t[x]) * min(k[x] / max(m[x], k[x]), _ONE)
-        for x in range(first, last):
-            k[x] = _ZERO

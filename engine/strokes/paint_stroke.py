@@ -16,16 +16,17 @@ from engine.brush.footprint import Footprint
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.stamp import Edit
 from engine.brush.thinning import Thinning
+from engine.brush.tinted_ink import TintedInk
 from engine.brush.tinting import Tinted
+from engine.brush.wetting import WET_COLUMNS, WetMask
 from engine.canvas import commit, layers
 from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
 from engine.canvas.growth import Growth
 from engine.canvas.heaps import heaping
-from engine.canvas.layers import Group, Layer
+from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
 from engine.canvas.selecting.mask_sheet import repainted
-from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.prediction import Predictor
 from engine.painting.grown import threads
@@ -33,9 +34,9 @@ from engine.painting.value import Painting
 from engine.strokes.bed import Bed, Meeting
 from engine.strokes.heap_stroke import NO_EDITS, Untouched, heap_plan
 from engine.strokes.live_stroke import Drawn
-from engine.strokes.mask_painting import edit_of, greys_of
+from engine.strokes.mask_painting import edit_of
 from engine.strokes.scenery import Scenery, reader
-from engine.strokes.wrapping import around
+from engine.strokes.wet_stroke import read_layer, wet_mask
 from engine.texture.planes import Planes
 
 
@@ -51,8 +52,8 @@ class LiveStroke(Drawn):
         made = edits.class_of(brush.mode)
         self._stroker = Stroker(brush, self.chance)
         self._tip = prints.resolve(brush, textures, level, own)
-        self._mask = self._new_mask()
         self._ink = made.ink_of(brush, textures, level, own)
+        self._mask = self._new_mask()
         looks = made.looks(brush, self._ink)
         source = None if looks.layer is None else reader(self.base.root, looks.layer, level, self.cache)
         self._scenery = Scenery(looks, brush, (level, self.origin), own, source, self.copies, self.chance)
@@ -65,6 +66,8 @@ class LiveStroke(Drawn):
 
     def _new_mask(self) -> StrokeMask:
         laid, tints = prints.for_copies(self._tip, self.copies), tints_of(self.brush)
+        if self.brush.wet is not None and tints and isinstance(self._ink, TintedInk):
+            return wet_mask(self, self._ink, Tinted(laid, tints + WET_COLUMNS))
         laid = Tinted(laid, tints) if tints else laid
         return StrokeMask(self.level, self.origin, tip=laid, each=copying.each(self.copies))
 
@@ -88,6 +91,9 @@ class LiveStroke(Drawn):
             touched: set[TileKey] = set()
             stood = self._mask.rect if self._stroker.waits else Rect(0, 0, 0, 0)
             dabs = self._walked(points)
+            if isinstance(self._mask, WetMask) and self.layer.growth and self._flatten(dabs):
+                stood = stood.union(self._mask.rect)
+                self._again()  # what was laid saw the layer as it was
             for part in copying.copied(dabs, self.copies):
                 touched |= self._mask.paint(part)
             dirty = tile_bounds(touched).union(stood)
@@ -109,8 +115,9 @@ class LiveStroke(Drawn):
             self._flatten(dabs)
         return dirty
 
-    def _flatten(self, dabs: np.ndarray) -> None:
-        """Makes paint of what is painted with examples on the layer, if the stroke meets any of it."""
+    def _flatten(self, dabs: np.ndarray) -> bool:
+        """Makes paint of what is painted with examples on the layer, if the stroke meets any of it; tells whether it
+        does."""
         spread = max(self._relief.reach, self._relief.spread)
         if any(self._meeting.any(self.layer.growth, part, spread) for part in copying.copied(dabs, self.copies)):
             self.flattened = True
@@ -118,6 +125,8 @@ class LiveStroke(Drawn):
                 self.layer = flattened(self.layer, self.cache, pool)
             root = layers.with_pyramid(self.base.root, self.layer.name, self.layer.pyramid)
             self.base = replace(self.base, root=layers.with_growth(root, self.layer.name, ()))
+            return True
+        return False
 
     def _again(self) -> None:
         """Lays the points that were kept, and nothing else."""
@@ -170,7 +179,7 @@ class LiveStroke(Drawn):
     def _painted(self, covered: StrokeMask | Coverage, thinning: Thinning | None) -> Edit:
         scene = replace(self._scenery.scene, arithmetic=self.before.arithmetic)
         locked = self.layer.alpha_locked
-        read = partial(_read, self.layer, self.level, self.cache)  # not of `self`, which would then hold itself
+        read = partial(read_layer, self.layer, self.level, self.cache)  # not of `self`, which would then hold itself
         made = edits.edit(self.brush, covered, self._ink, locked, read, thinning, scene)
         return edit_of(made, self.layer)
 
@@ -201,7 +210,3 @@ class LiveStroke(Drawn):
         if self.bed is not None and self.bed.growth is not self.layer.growth:
             root = layers.with_growth(root, name, self.bed.growth)
         return self.base if root is self.base.root else replace(self.base, root=root)
-
-
-def _read(layer: Layer, level: int, cache: TileCache | None, rect: Rect) -> Planes:
-    return greys_of(around(layer, level, rect, cache), layer)

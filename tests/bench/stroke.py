@@ -40,6 +40,8 @@ _MOVES: dict[str, dict[str, object]] = {
     "smear": {"mode": "raster", "op": {"name": "displace", "distance": 8.0}},
     "raster smooth": {"mode": "raster", "op": "smooth"},
     "erase": {"mode": "erase"},
+    "wet, light": {"wet": {"length": SMUDGE, "amount": SMUDGE}},
+    "wet, pigment": {"wet": {"length": SMUDGE, "amount": SMUDGE, "mixing": "pigment"}},
 }
 
 

@@ -230,6 +230,21 @@ def _areas() -> Iterator[tuple[str, list[Any]]]:
     yield "baked", [GROUND, {**again, "c": [0.9, 0.3], "mirror": True}, {"do": "layer", "bake": "again"}]
 
 
+def _wet() -> Iterator[tuple[str, list[Any]]]:
+    """Strokes that take up what lies there: by each way of mixing, with hairs, a slender tip, ink and copies."""
+    under = [GROUND, stroke(*BACK, colour="#2040c0", radius=11)]
+    taking = {"length": 0.83, "amount": 0.61}
+    yield "wet-light", [*under, stroke(wet={**taking, "dilution": 0.23}, ink=[ink("rock", period=13.7)])]
+    slender = {"ratio": 0.31, "angle": 37.3, "follow": "direction"}
+    yield "wet-pigment", [*under, stroke(wet={**taking, "dilution": 0.4, "mixing": "pigment"}, shape=slender)]
+    hairs = stroke(wet={**taking, "mixing": "pigment"}, shape={"bristles": 19, "ratio": 0.6}, level=3, radius=71)
+    yield "wet-hairs", [*under, {**hairs, "points": [[8 * x, 8 * y, *rest] for x, y, *rest in LINE]}]
+    yield (
+        "wet-copies",
+        [*under, {**stroke(wet=taking), "symmetry": {"centre": [47.3, 31.1], "count": 3, "mirror": True}}],
+    )
+
+
 def _heights() -> Iterator[tuple[str, list[Any]]]:
     """What is heaped on a layer of heights, and beside the paint of another, seen in the light."""
     land = {"do": "layer", "set": "Layer 1", "role": "height", "scale": 40}
@@ -249,6 +264,7 @@ def recordings() -> dict[str, list[Any]]:
         _layered(),
         _made(),
         _areas(),
+        _wet(),
         _heights(),
         _grown(),
     )
