@@ -30,6 +30,11 @@ _SHAPES = {
 }
 # By eighths of a turn from the right, clockwise, of which every other half is the same.
 _WAYS = glfw.RESIZE_EW_CURSOR, glfw.RESIZE_NWSE_CURSOR, glfw.RESIZE_NS_CURSOR, glfw.RESIZE_NESW_CURSOR
+_OVER_PANELS = {
+    int(imgui.MouseCursor_.resize_ew): glfw.RESIZE_EW_CURSOR,
+    int(imgui.MouseCursor_.resize_ns): glfw.RESIZE_NS_CURSOR,
+    int(imgui.MouseCursor_.resize_nwse): glfw.RESIZE_NWSE_CURSOR,
+}
 _RINGS, _GHOST = 32, 0.8  # circles that show a dab, and how opaque it is
 _AROUND = 0.6  # how dark paper is around the frame
 
@@ -37,7 +42,7 @@ _AROUND = 0.6  # how dark paper is around the frame
 def shape(desk: Desk, panning: bool) -> int:
     """GLFW's cursor for where the pointer is."""
     if not desk.pointer.over_canvas:
-        return int(glfw.ARROW_CURSOR)
+        return int(_OVER_PANELS.get(imgui.get_mouse_cursor(), glfw.ARROW_CURSOR))
     if panning:
         return int(glfw.RESIZE_ALL_CURSOR)
     if desk.hand.tool == TOOL:

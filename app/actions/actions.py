@@ -15,6 +15,7 @@ from app.actions.guide_actions import GUIDE_ACTIONS
 from app.actions.layer_actions import LAYER_ACTIONS
 from app.actions.mask_actions import MASK_ACTIONS
 from app.actions.merging_actions import MERGING_ACTIONS
+from app.actions.panel_actions import PANEL_ACTIONS
 from app.actions.placement_actions import PLACEMENT_ACTIONS
 from app.actions.select_actions import SELECT_ACTIONS
 from app.actions.tool_actions import TOOL_ACTIONS
@@ -35,6 +36,7 @@ ACTIONS: dict[str, Action] = {
     **PLACEMENT_ACTIONS,
     **ENDLESS_ACTIONS,
     **VIEW_ACTIONS,
+    **PANEL_ACTIONS,
     **WRAPPING_ACTIONS,
     "keys": Action("Keys…", "Help", ("F1",), "All keys in one list", asks("keys")),
     "start_page": Action("Start page", "Help", (), "Things to try, and what was open", lambda desk: desk.start.show()),

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, view_of
 from app.desk.adjusting.adjust_state import AdjustState
+from app.desk.arranging.kept_arrangement import Arranged
 from app.desk.asked import Asked, Then
 from app.desk.examples.example_state import Entry, ExampleState
 from app.desk.exporting.export_state import ExportState
@@ -127,6 +128,7 @@ class Desk:
     painting: bool = False
     keys: KeyState = field(default_factory=KeyState)
     panels: bool = True
+    arranged: Arranged = field(default_factory=Arranged)
     insets: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom taken by panels
     pointer: Pointer = field(default_factory=Pointer)
     glide: Glide = field(default_factory=Glide)

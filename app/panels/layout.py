@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from imgui_bundle import ImVec2, imgui
 
 from app import theme, trace
@@ -9,6 +11,8 @@ from app.desk.desk import Desk, Hear
 from app.desk.outside import pictured
 from app.faults.fault_guard import FaultGuard
 from app.panels import menu_bar, status
+from app.panels.arranging.dock_edge import DockEdge, Edge
+from app.panels.arranging.docks import FLOATS, Docks, dock_unit
 from app.panels.brush.brush_panel import BrushPanel
 from app.panels.brush.pop_up import PopUp
 from app.panels.colour.colour_panel import ColourPanel
@@ -25,8 +29,8 @@ from app.panels.places.place_field import PlaceField
 from app.panels.starting import start_page
 from app.panels.strip import StripPanel
 
-LEFT, RIGHT = 248.0, 286.0  # widths in points
 NARROW = 640.0  # points: a strip needs more
+HIGH = 0.62  # of the window's height: a strip takes no more
 _FIXED = (
     imgui.WindowFlags_.no_title_bar
     | imgui.WindowFlags_.no_resize
@@ -34,6 +38,7 @@ _FIXED = (
     | imgui.WindowFlags_.no_saved_settings
     | imgui.WindowFlags_.no_bring_to_front_on_focus
 )
+_FLOATING = _FIXED & ~(imgui.WindowFlags_.no_resize | imgui.WindowFlags_.no_bring_to_front_on_focus)
 _SCROLLS_NOT = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
 
 
@@ -46,6 +51,15 @@ class Layout:
         self.dialogs, self.strip, self.place_field = Dialogs(), StripPanel(), PlaceField()
         self.move_bar, self.guide_bar, self.pop_up = MoveBar(), GuideBar(), PopUp()
         self.start_page = start_page.StartPage()
+        panels = {
+            "tools": self.brush.draw_tools,
+            "brushes": self.brush.draw_list,
+            "settings": self.brush.draw_settings,
+            "colour": self.colour.draw,
+            "ink": self.ink.draw,
+            "layers": self.layers.draw,
+        }
+        self._docks, self._edge = Docks(panels, self._begin, guard), DockEdge(self._begin)
         self._covered: list[tuple[float, float, float, float]] = []
         self._popup, self._strip = False, ""
 
@@ -88,11 +102,10 @@ class Layout:
         left, right, opened = 0.0, 0.0, desk.strip
         if desk.panels:
             height = desk.view.height - top - bottom
-            wider = desk.scale * max(1.0, imgui.get_style().font_scale_main)
-            left, right = LEFT * wider, RIGHT * wider
-            tall = min(self.strip.height(desk), 0.62 * height) if desk.strip else 0.0
+            left, right = self._docks.widths(desk)
+            tall = min(self.strip.height(desk), HIGH * height) if desk.strip else 0.0
             under = desk.view.width - left - right < NARROW * desk.scale  # then the strip goes below the right panel
-            self._sides(desk, (top, height, height - tall if under else height), (left, right))
+            self._docks.draw(desk, top, (height, height - tall if under else height), (left, right))
             if desk.strip:
                 bottom += tall
                 wide = desk.view.width - left - (0.0 if under else right)
@@ -116,28 +129,6 @@ class Layout:
         self._popup = imgui.is_popup_open("", any_popup)
         trace.tell_places()
 
-    def _sides(self, desk: Desk, span: tuple[float, float, float], widths: tuple[float, float]) -> None:
-        """Draws the columns; `span`: where they begin, the height of the left one and of the right one.
-
-        As wide with a scrollbar as without: it takes the margin, and nothing moves when it comes.
-        """
-        (top, tall, height), (left, right) = span, widths
-        inner = 2 * imgui.get_style().window_padding.x
-        imgui.set_next_window_content_size(ImVec2(left - inner, 0))
-        if self._begin("left", (0, top, left, tall)):
-            with self._guard.spare_drawing("drawing the brush panel"):
-                self.brush.draw(desk)
-        imgui.end()
-        imgui.set_next_window_content_size(ImVec2(right - inner, 0))
-        if self._begin("right", (desk.view.width - right, top, right, height)):
-            with self._guard.spare_drawing("drawing the colour panel"):
-                self.colour.draw(desk)
-            with self._guard.spare_drawing("drawing the ink mixer"):
-                self.ink.draw(desk)
-            with self._guard.spare_drawing("drawing the layers panel"):
-                self.layers.draw(desk)
-        imgui.end()
-
     def _open_strip(self, desk: Desk, box: tuple[float, float, float, float]) -> None:
         imgui.push_style_color(imgui.Col_.window_bg, theme.vec((0.15,) * 3))
         if self._begin("strip", box):
@@ -145,6 +136,11 @@ class Layout:
                 self.strip.draw(desk)
         imgui.end()
         imgui.pop_style_color()
+        x, y, wide, tall = box
+        out = 4 * desk.scale
+        wanted = self._edge.draw(desk, Edge("strip edge", (x, y - out, wide, out), True, -1.0), tall)
+        if wanted is not None:
+            desk.arranged.now = replace(desk.arranged.now, strip=max(1.0, wanted / dock_unit(desk)))
 
     def _bar(self, desk: Desk, corner: tuple[float, float]) -> None:
         """Draws bars over the canvas, so that nothing gives way to them: the numbers of what is moved or of a guide, or
@@ -188,7 +184,7 @@ class Layout:
         self._covered.append((x0, y0, x1, y1))  # whole pixels, as imgui draws it: a press on any of them is the panel's
         imgui.set_next_window_pos(ImVec2(x0, y0))
         imgui.set_next_window_size(ImVec2(x1 - x0, y1 - y0))
-        return imgui.begin(name, None, _FIXED | flags)[0]
+        return imgui.begin(name, None, _FLOATING if flags == FLOATS else _FIXED | flags)[0]
 
     def _menu(self, desk: Desk) -> float:
         height = 0.0

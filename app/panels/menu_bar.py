@@ -8,6 +8,7 @@ from app.actions.action import Action
 from app.actions.actions import ACTIONS, MENUS, perform
 from app.desk.desk import Desk
 from app.panels import recent_menu
+from app.panels.arranging.workspaces_dialog import draw_workspaces
 from app.panels.controls import widgets as w
 
 
@@ -35,6 +36,8 @@ def _rows(desk: Desk, menu: str) -> None:
             _item(desk, action)
             if action is ACTIONS["open"]:
                 recent_menu.draw(desk)
+            elif action is ACTIONS["workspaces"]:
+                draw_workspaces(desk)
         elif action.menu.startswith(f"{menu}/") and action.menu not in drawn:
             drawn.add(action.menu)
             title = action.menu.partition("/")[2]

@@ -15,6 +15,7 @@ from app import icons, theme
 from app.actions.action import Action
 from app.actions.actions import keyed
 from app.desk.desk import Desk, Hear
+from app.panels.arranging.docks import dock_unit
 from app.panels.controls import widgets as w
 from app.panels.examples.examples_panel import ExamplesPanel
 from app.panels.lab.analysis_panel import AnalysisPanel
@@ -65,7 +66,8 @@ class StripPanel:
         jump."""
         if not desk.strip:
             return 0.0
-        return max(STRIPS[desk.strip].height * desk.scale, min(PART * desk.view.height, HIGHEST * desk.scale))
+        least, chosen = STRIPS[desk.strip].height * desk.scale, desk.arranged.now.strip * dock_unit(desk)
+        return max(least, chosen or min(PART * desk.view.height, HIGHEST * desk.scale))
 
     def draw(self, desk: Desk) -> None:
         """Into the present window."""

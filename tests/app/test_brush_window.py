@@ -75,7 +75,7 @@ def test_while_brushes_are_read_the_list_says_so(program):
     app = program()
     app.box("Pencil")
     told = app.log.read_text()
-    assert '["left", "Loading brushes"' in told
+    assert '["brushes", "Loading brushes"' in told
     assert "No brush is called so" not in told
     app.click("Find")
     app.type("zzzz")

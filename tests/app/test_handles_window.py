@@ -176,12 +176,12 @@ def test_what_making_it_independent_loses_is_told_before(program, tmp_path):
     app = program(str(tmp_path / "deep.jsonl"))
     app.click("Copy")
     seen = app.canvas()
-    app.click("independent", "right")
+    app.click("independent", "layers")
     app.box("Make independent", "Make independent")
     app.click("Cancel", "Make independent")
     app.until_gone("Cancel")
     app.box("source")  # it shows another layer still
-    app.click("independent", "right")
+    app.click("independent", "layers")
     app.click("Make independent", "Make independent")
     app.until_gone("source")  # of a row: it shows nothing else any more
     assert np.abs(app.canvas() - seen).max() <= 4

@@ -57,7 +57,7 @@ def test_a_picture_as_ink_has_a_slider_for_its_detail(program, stones):
     app.settled()
     Drag(app.display, window_of(app), stones).drop(510, 400)
     app.click("Texture")
-    until(lambda: 'box ["right", "stones"' in app.log.read_text())
+    until(lambda: 'box ["ink", "stones"' in app.log.read_text())
     app.settled()
     row = app.box("stones")
     app.do("mousemove", round(row[2] + 48), round((row[1] + row[3]) / 2), "click", 1)

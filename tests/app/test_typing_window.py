@@ -40,8 +40,8 @@ def test_a_digit_typed_over_a_field_that_has_no_focus_leaves_the_picture_as_it_i
     app.keys("2")
     app.park()
     before = app.settled()[60:740, 270:970]
-    for field in ("Opacity", "Find"):
-        app.move_to(app.at(field, window="left"))
+    for field, panel in (("Opacity", "settings"), ("Find", "brushes")):
+        app.move_to(app.at(field, window=panel))
         app.keys("4")
         app.wait_until(lambda: any(name.startswith("Nothing takes") for _, name in app.boxes()), "it is not told")
         app.do("mousemove", 120, 119)

@@ -60,6 +60,7 @@ def restore_window(desk: Desk, kept: KeptWindow) -> None:
     """Lays on the desk what needs no file; before the first frame."""
     desk.remembered.kept, desk.start.welcomed = kept, kept.welcomed
     desk.remembered.strip, desk.remembered.folded = kept.strip, dict(kept.folded)
+    desk.arranged.now, desk.arranged.workspaces = kept.panels, kept.workspaces
     for name in EXPORT_CHOICES:
         setattr(desk.export, name, getattr(kept.export, name))
     if desk.export.area not in AREAS:
@@ -128,4 +129,6 @@ def remembered_now(desk: Desk, box: WindowBox | None) -> KeptWindow:
         folders=tuple(sorted(folders.items())),
         hand=held,
         export=replace(desk.export, light=None),
+        panels=desk.arranged.now,
+        workspaces=desk.arranged.workspaces,
     )

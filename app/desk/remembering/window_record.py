@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from immutables import Map
+
 from app.desk import presets
+from app.desk.arranging.arrangement import Arrangement
+from app.desk.arranging.kept_arrangement import arrangement_json, arrangement_of, workspaces_of
 from app.desk.colours import from_hex
 from app.desk.exporting.export_state import EXPORT_CHOICES, EXPORT_FORMATS, FINER, ExportState
 from app.desk.presets import Preset
@@ -32,7 +36,8 @@ class KeptHand(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class KeptWindow:
     """`box`: where it lies; `welcomed`: the start page was seen; `strip`: what is open below the canvas; `folded`: by
-    sections of panels that were folded or unfolded, whether they are open; `folders`: by what was chosen there."""
+    sections of panels that were folded or unfolded, whether they are open; `folders`: by what was chosen there;
+    `panels`: where these lie; `workspaces`: such arrangements under names."""
 
     box: WindowBox | None = None
     welcomed: bool = False
@@ -41,6 +46,8 @@ class KeptWindow:
     folders: tuple[tuple[str, str], ...] = ()
     hand: KeptHand = KeptHand()  # noqa: RUF009  # it never changes
     export: ExportState = field(default_factory=ExportState)
+    panels: Arrangement = field(default_factory=Arrangement)
+    workspaces: Map[str, Arrangement] = field(default_factory=Map)
 
 
 def window_json(kept: KeptWindow) -> KeptObject:
@@ -50,6 +57,9 @@ def window_json(kept: KeptWindow) -> KeptObject:
     told: KeptObject = {"welcomed": kept.welcomed, "strip": kept.strip}
     told |= {"box": list(box.area), "maximised": box.maximised} if box is not None else {}
     told |= {"folded": dict(kept.folded), "folders": dict(kept.folders), "export": export}
+    told |= {"panels": panels} if (panels := arrangement_json(kept.panels)) else {}
+    if kept.workspaces:
+        told["workspaces"] = {name: arrangement_json(one) for name, one in sorted(kept.workspaces.items())}
     told |= {"colours": list(hand.colours)} if hand.colours is not None else {}
     told |= {"stabiliser": hand.stabiliser} if hand.stabiliser is not None else {}
     told |= {"steadying": hand.steadying} if hand.steadying else {}
@@ -75,6 +85,8 @@ def window_of(told: KeptObject) -> KeptWindow:
         tuple(folders.items()),
         _hand(told),
         _export(_table(told, "export")),
+        arrangement_of(told.get("panels", {}), "panels"),
+        workspaces_of(told.get("workspaces", {})),
     )
 
 

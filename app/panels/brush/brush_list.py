@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from imgui_bundle import ImVec2, imgui
 
 from app import icons
@@ -16,7 +14,7 @@ from app.panels.brush.preset_tile import draw_tile, tall_of
 from app.panels.controls import widgets as w
 from engine.studio.requests import Prepare, Swatch
 
-ACROSS = 2  # in the panel
+ACROSS, TILE_WIDE = 2, 100  # in the panel: at least, and the least width of each where there are more, points
 ACROSS_ALL = 8  # of all at once, at most
 LABELS = 94  # width of the names of groups beside all of them, points
 EVERY = ""  # the group of all
@@ -48,22 +46,21 @@ class BrushList:
             self._asked[preset.name] = preset
             desk.post(_picture(desk, preset))
 
-    def draw(self, desk: Desk, below: float) -> None:
-        """`below`: the height that what follows needs."""
+    def draw(self, desk: Desk) -> None:
+        """Fills the present window, as many across as have room."""
         self._bar(desk)
-        gap, em = 5 * desk.scale, imgui.get_font_size()
+        gap = 5 * desk.scale
         found = presets.found(desk.known.presets, self._group, self._find)
-        wide = (imgui.get_content_region_avail().x - 12 * desk.scale - gap * (ACROSS - 1)) / ACROSS
-        tall = tall_of(desk, wide)
-        room = imgui.get_window_height() - imgui.get_cursor_pos().y - below - em
-        everything = _height(presets.found(desk.known.presets, EVERY, ""), tall + gap, em + gap)
-        high = max(room, 2.6 * tall)  # the same for every group
-        imgui.begin_child("presets", ImVec2(0, min(everything or high, high)))
+        room = imgui.get_content_region_avail().x - 12 * desk.scale
+        across = max(ACROSS, int((room + gap) / (TILE_WIDE * desk.scale + gap)))
+        wide = (room - gap * (across - 1)) / across
+        low = 1.6 * tall_of(desk, wide)  # where there is less room, all of it scrolls
+        imgui.begin_child("presets", ImVec2(0, max(imgui.get_content_region_avail().y, low)))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         for group, members in found:
             imgui.text_disabled(group)
             for i, preset in enumerate(members):
-                if i % ACROSS:
+                if i % across:
                     imgui.same_line()
                 if self._preset(desk, preset, wide):
                     self._seen = desk.hand.preset
@@ -148,8 +145,3 @@ def _picture(desk: Desk, preset: Preset) -> Swatch:
 def hold(desk: Desk, preset: Preset) -> None:
     """Paints with a brush from now on; Shift keeps the size."""
     take_preset(desk, preset, imgui.get_io().key_shift)
-
-
-def _height(listed: Sequence[tuple[str, Sequence[Preset]]], row: float, heading: float) -> float:
-    """Of a list, `row` for each line of brushes and `heading` for each group."""
-    return sum(-(-len(members) // ACROSS) * row + heading for _, members in listed)

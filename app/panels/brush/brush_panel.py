@@ -24,13 +24,13 @@ from app.panels.brush.symmetry_section import SymmetrySection
 from app.panels.brush.texturing import Texturing
 from app.panels.brush.thickness_section import draw_thickness
 from app.panels.controls import widgets as w
+from app.panels.controls.grips import note_grip
 from app.panels.options.fill_options import FILL_TOOLS
 from app.tools.tools import TOOLS
 from engine.brush.modes import MODES
 from engine.brush.settings import SETTINGS
 from engine.studio.requests import Swatch
 
-_TALL = ("operations",)  # sections of a mode for which the list of presets makes no room
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
 _ACROSS = 7  # buttons of tools in a row
 
@@ -45,7 +45,7 @@ def _tool_row(desk: Desk, names: list[tuple[str, str, bool]], side: float, gap: 
 
 
 class BrushPanel:
-    """Draws the left column."""
+    """Draws the tools, the presets, and the settings."""
 
     def __init__(self) -> None:
         self._texturing, self._dynamics = Texturing(), DynamicsSection()
@@ -57,7 +57,6 @@ class BrushPanel:
             "example": example_section.draw,
         }  # of a mode alone
         self._following = Following()
-        self._below = 0.0  # the height of what lies below the presets while all is folded, in the last frame
 
     def wants(self, desk: Desk, now: float) -> None:
         """Asks for the stroke of the brush as it is set, pictures of the presets, and those of examples where one is
@@ -73,32 +72,44 @@ class BrushPanel:
             size = (int(PREVIEW[0] * desk.scale), int(PREVIEW[1] * desk.scale))
             desk.post(Swatch("brush", brush, size, textures=palette.lacking(desk), soon=True))
 
-    def draw(self, desk: Desk) -> None:
-        """Draws it into the present window."""
+    def draw_tools(self, desk: Desk) -> None:
+        """Draws the tools into the present window, below a line by which they are taken."""
+        corner, wide = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+        imgui.invisible_button("tools grip", ImVec2(wide, 8 * desk.scale))
+        note_grip()
+        w.named("tools grip")
+        w.tooltip("Drag the tools elsewhere; right click: more")
+        painter, y = imgui.get_window_draw_list(), corner.y + 4 * desk.scale
+        colour = theme.packed(theme.QUIET if imgui.is_item_hovered() else theme.RAISED)
+        left, right = corner.x + 0.42 * wide, corner.x + 0.58 * wide
+        painter.add_line(ImVec2(left, y), ImVec2(right, y), colour, 2 * desk.scale)
         self._tools(desk)
+
+    def draw_list(self, desk: Desk) -> None:
+        """Draws the presets."""
         shown = w.section("Brushes", "Presets: click to paint with one", shared=True)
         self._saving.draw(desk)
         if shown:
-            self._list.draw(desk, self._below)
-        top = imgui.get_cursor_pos().y
-        unfolded = 0.0
+            self._list.draw(desk)
+
+    def draw_settings(self, desk: Desk) -> None:
+        """Draws what the brush in hand is set to: what its mode alone has comes last, so that nothing gives way."""
         shown = w.section("Brush settings", shared=True)
         draw_changed(desk)
         if shown:
             self._preview(desk)
             self._modes(desk)
-            section = desk.hand.stroke_mode().section
-            special = _height_of(lambda: self._sections[section](desk)) if section else 0.0
-            unfolded += special if section in _TALL else 0.0
             self._settings(desk)
-        unfolded += self._texturing.draw(desk)
+            section = desk.hand.stroke_mode().section
+            if section:
+                self._sections[section](desk)
+        self._texturing.draw(desk)
         if w.section("Symmetry", "Strokes painted several times in one step", opened=False):
-            unfolded += _height_of(lambda: self._symmetry.draw(desk))
+            self._symmetry.draw(desk)
         if w.section("Tip shape", "Slender, turned with the stroke or the pen, strewn", opened=False):
-            unfolded += _height_of(lambda: tip_section.draw(desk))
+            tip_section.draw(desk)
         if w.section("Pen and motion", "What pressure, tilt, speed, chance change", opened=False):
-            unfolded += _height_of(lambda: self._dynamics.draw(desk))
-        self._below = imgui.get_cursor_pos().y - top - unfolded
+            self._dynamics.draw(desk)
 
     def _preview(self, desk: Desk) -> None:
         """Draws a stroke of the brush as it is set now."""
@@ -155,27 +166,20 @@ class BrushPanel:
 
     def _settings(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():
-            if name in desk.hand.stroke_mode().unfelt:
-                continue
             if name == "radius":
                 draw_radius(desk)
                 continue
             shown, form, lo, hi = _percent(getattr(desk.hand.brush, name), "%.2f", *row.slider, row.unit)
+            imgui.begin_disabled(name in desk.hand.stroke_mode().unfelt)
             changed, value = w.slider(row.label, shown, (lo, hi), row.tooltip, form=form, curved=row.logarithmic)
+            imgui.end_disabled()
             if changed:
                 value = value / 100 if form.endswith("%%") else value
                 setting: dict[str, Any] = {name: row.clamped(round(value, 4))}
                 desk.hand.change(**setting)
 
-        draw_thickness(desk)
         draw_steadying(desk)
-
-
-def _height_of(draw: Callable[[], None]) -> float:
-    """Draws something; how high it is."""
-    top = imgui.get_cursor_pos().y
-    draw()
-    return imgui.get_cursor_pos().y - top
+        draw_thickness(desk)
 
 
 def _percent(value: float, form: str, lo: float, hi: float, unit: str) -> tuple[float, str, float, float]:

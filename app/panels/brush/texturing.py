@@ -43,35 +43,32 @@ class Texturing:
         self._kept = dict(_START)
         self._fresh = ""  # the section switched on just now
 
-    def draw(self, desk: Desk) -> float:
-        """Returns the height of what is unfolded of them."""
-        unfolded = 0.0
-        unfelt = desk.hand.stroke_mode().unfelt
+    def draw(self, desk: Desk) -> None:
+        """Draws them into the present window; those that do not count for the mode are there, but do nothing."""
         for name, title, hint, body in _SECTIONS:
-            if name in unfelt:
+            unfelt, held = name in desk.hand.stroke_mode().unfelt, getattr(mixed_now(desk.hand), name)
+            imgui.begin_disabled(unfelt)
+            shown, on = w.switched_section(title, hint, held is not None and not unfelt, enabled=not unfelt)
+            imgui.end_disabled()
+            if unfelt:
                 continue
-            held = getattr(mixed_now(desk.hand), name)
-            shown, on = w.switched_section(title, hint, held is not None)
             if on != (held is not None):
                 desk.hand.paper_stays = desk.hand.paper_stays and name != "grain"
                 held, self._fresh = (self._start(desk, name), name) if on else (None, "")
                 if on and name == "grain":
                     desk.hand.take(lightened(desk.hand.brush, desk.pointer.pen))
             if shown:
-                top = imgui.get_cursor_pos().y
                 imgui.push_id(name)
                 imgui.begin_disabled(not on)
                 changed = body(self, desk, held if held is not None else self._kept[name])
                 imgui.end_disabled()
                 imgui.pop_id()
                 held = changed if on else None
-                unfolded += imgui.get_cursor_pos().y - top
                 self._show(name)
             if held is not None:
                 self._kept[name] = held
             if held != getattr(mixed_now(desk.hand), name):
                 _set(desk, name, held)
-        return unfolded
 
     def _show(self, name: str) -> None:
         """Scrolls to the end of a section that was switched on just now."""

@@ -135,7 +135,7 @@ def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = F
     return shown
 
 
-def switched_section(title: str, hint: str, on: bool) -> tuple[bool, bool]:
+def switched_section(title: str, hint: str, on: bool, *, enabled: bool = True) -> tuple[bool, bool]:
     """Returns a header with a switch at its right end; turning it on unfolds it.  (whether it is unfolded, whether
     on)"""
     imgui.dummy(ImVec2(0, 1))
@@ -145,7 +145,7 @@ def switched_section(title: str, hint: str, on: bool) -> tuple[bool, bool]:
     at = ImVec2(right - wide, imgui.get_cursor_screen_pos().y + (line - tall) / 2)
     mouse = imgui.get_io().mouse_pos
     over = at.x - 4 <= mouse.x < right and abs(mouse.y - at.y - tall / 2) <= line / 2 and imgui.is_window_hovered()
-    pressed = over and imgui.is_mouse_clicked(imgui.MouseButton_.left)
+    pressed = over and enabled and imgui.is_mouse_clicked(imgui.MouseButton_.left)
     on = on != pressed
     imgui.push_style_color(Col.header_hovered, theme.vec(theme.RAISED, 0.5))
     imgui.push_style_color(Col.header_active, theme.vec(theme.RAISED))

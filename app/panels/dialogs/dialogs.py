@@ -8,6 +8,7 @@ from typing import Protocol
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.desk.desk import Desk
+from app.panels.arranging.workspaces_dialog import WorkspacesDialog
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
 from app.panels.dialogs.adjust_dialog import AdjustDialog
@@ -275,6 +276,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "unclosed": Cards,
     "bin": Bin,
     "preferences": PreferencesDialog,
+    "workspaces": lambda desk: WorkspacesDialog(),
     "keys": Keys,
     "keys from": file_browser.choosing_keys,
     "keys to": file_browser.writing_keys,

@@ -1,0 +1,1 @@
+"""Where panels lie: in columns, over the canvas, or nowhere; kept, and under names."""

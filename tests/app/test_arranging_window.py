@@ -1,0 +1,64 @@
+"""Panels in the real window: none pushes another; they are dragged, hidden, floated and kept under names."""
+
+import json
+
+import pytest
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+
+
+def test_nothing_moves_under_the_pointer_and_panels_lie_where_they_were_put(program):
+    app = program()
+    app.settled(60.0)
+    places = {name: app.box(name) for name in ("Radius", "Stabiliser", "Dry brush", "Layers", "Paint")}
+    for mode in ("Change", "Erase", "Paint"):
+        app.click(mode, "settings")
+    app.click("drop", "ink")  # the ink is one texture shorter
+    app.until_gone("curve Shaping of all")
+    assert {name: app.box(name) for name in places} == places
+
+    layers, canvas = app.box("Layers"), app.box("canvas")
+    x, y = app.at("below ink")
+    app.drag((x, y), (x, y - 60))
+    app.do("mouseup", 1)
+    app.wait_until(lambda: app.box("Layers")[1] < layers[1] - 40, "the edge does not move the panel below it")
+    x, y = app.at("right edge")
+    app.drag((x, y), (x - 100, y))
+    app.do("mouseup", 1)
+    app.wait_until(lambda: app.box("canvas")[2] < canvas[2] - 80, "the column is as wide as it was")
+
+    x, y = app.at("Layers")
+    app.drag((1060, y), (700, 300))
+    app.do("mouseup", 1)
+    assert app.box("Layers")[0] < 760
+    app.move_to((700, 300))
+    app.do("click", 3)
+    app.click("To the left")
+    app.wait_until(lambda: app.box("Layers")[0] < 240, "it is not in the column on the left")
+    app.move_to(app.at("Colour"))
+    app.do("click", 3)
+    app.click("Hide")
+    app.until_gone("Colour")
+
+    app.click("View menu")
+    app.click("Panels and workspaces…")
+    app.click("workspace name")
+    app.type("Mine")
+    app.keys("Return")
+    app.click("Swap the sides")
+    app.wait_until(lambda: app.box("Layers")[0] > 900, "the sides are not swapped")
+    app.click("Mine")
+    app.wait_until(lambda: app.box("Layers")[0] < 240, "the workspace is not as it was kept")
+    app.click("As at first")
+    app.wait_until(lambda: app.box("Layers")[:2] == layers[:2], "the panels are not as at first")
+    app.click("Mine")
+    app.keys("Escape")
+    path = app.folder / "config" / "inkfall" / "window.json"
+    app.wait_until(lambda: "Mine" in path.read_text(), "it is not kept")
+    kept = json.loads(path.read_text())
+    assert kept["workspaces"]["Mine"] == kept["panels"]
+    assert kept["panels"]["hidden"] == ["colour"]
+    app.process.terminate()
+    app.process.wait(30)
+    app = program()
+    app.wait_until(lambda: app.box("Layers")[0] < 240, "the next start does not remember")
