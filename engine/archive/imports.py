@@ -28,6 +28,7 @@ from engine.files.layered.ora_layers import known_blend
 from engine.files.limits import LIMITS, Limits, memory_cap, streamed
 from engine.files.png_reader import PngReader
 from engine.files.png_writer import SIGNATURE
+from engine.files.profiles.converting import conversion_of
 from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, parse_stack
 from engine.files.zip_reader import ZipArchive
 from engine.keeping.disk_raster import room
@@ -162,10 +163,11 @@ def _regrouped(bands: Iterator[np.ndarray], y: int) -> Iterator[np.ndarray]:
 def open_image(
     path: str | os.PathLike[str], limits: Limits = LIMITS, progress: Progress = None, cancelled: Stop = None
 ) -> Opened:
-    """Returns a PNG, JPEG or TIFF as a painting of its size with one layer.  FileError if it cannot be read."""
+    """Returns a PNG, JPEG or TIFF as a painting of its size with one layer, its colours converted from its profile to
+    sRGB.  FileError if it cannot be read."""
     streamed = _png_rows(path, limits, progress, cancelled)
     if streamed is None:
-        pixels, meta = read_image(path, limits=limits, cancelled=cancelled)
+        pixels, meta = read_image(path, limits=limits, cancelled=cancelled, converted=True)
         check_cancelled(cancelled)
         size = (pixels.shape[1], pixels.shape[0])
         strips = (pixels[top : top + _LAID_ROWS] for top in range(0, size[1], _LAID_ROWS))
@@ -191,8 +193,10 @@ def _png_rows(
             file.seek(0)
             reader = PngReader(file, os.fspath(path), streamed(limits))
             header = reader.header
-            bands = _counted(reader.strips(), header.height, progress)
-            return pasted(bands, 0, 0, cancelled, header.height), (header.width, header.height), header.notes
+            convert, notes = conversion_of(header.profile, os.fspath(path), header.depth)
+            strips = reader.strips() if convert is None else map(convert, reader.strips())
+            bands = _counted(strips, header.height, progress)
+            return pasted(bands, 0, 0, cancelled, header.height), (header.width, header.height), notes
     except OSError:
         return None
 

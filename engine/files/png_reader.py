@@ -1,7 +1,7 @@
 """Reading PNG (ISO/IEC 15948) from anywhere: every kind, 16 bits kept, in strips, every claim checked first.
 
 Checksums of IHDR, PLTE, tRNS, IDAT and IEND must hold; other chunks are skipped unread, as they cannot change the
-values.  Colour profiles are not applied: the numbers are taken as sRGB, and `notes` says so if they are not.
+values.  Colour profiles are not applied: the numbers are given as they are, and the profile beside them.
 """
 
 from __future__ import annotations
@@ -29,6 +29,8 @@ ADAM7 = (
 )  # fmt: skip
 STRIP = 1 << 20
 FOREIGN_PROFILE = "its colour profile is not applied"
+_LARGEST_ICCP = 1 << 22  # bytes, deflated
+_LARGEST_PROFILE = 1 << 24  # bytes
 
 
 @dataclass(frozen=True)
@@ -43,11 +45,21 @@ class Header:
     palette: bytes = b""
     transparency: bytes = b""
     notes: tuple[str, ...] = ()
+    deflated: bytes = b""  # the profile of its colours, where they are not sRGB
 
     @property
     def dtype(self) -> np.dtype:
         """Gives the type of a decoded sample: uint8, or uint16 for 16 bits."""
         return np.dtype(np.uint16 if self.depth == 16 else np.uint8)
+
+    @property
+    def profile(self) -> bytes:
+        """Gives the profile of its colours, where they are not sRGB; nothing where it is damaged."""
+        room = memoryview(bytearray(min(_LARGEST_PROFILE, 1032 * len(self.deflated) + 64)))
+        try:
+            return bytes(room[: Inflated(iter((self.deflated,))).readinto(room)]) if self.deflated else b""
+        except DeflateError:
+            return b""
 
     def stride(self, width: int) -> int:
         """Returns bytes in an unfiltered row of `width` pixels."""
@@ -134,9 +146,9 @@ class PngReader:
         palette, transparency = found_before.get(b"PLTE", b""), found_before.get(b"tRNS", b"")
         if colour == 3 and not palette:
             raise self._chunks.fail("image data before the palette; expected chunk PLTE")
-        title = found_before.get(b"iCCP", b"sRGB").split(b"\0")[0]
-        notes = () if b"sRGB" in title else (FOREIGN_PROFILE,)
-        return Header(width, height, depth, colour, interlace == 1, palette, transparency, notes)
+        title, _, deflated = found_before.get(b"iCCP", b"sRGB").partition(b"\0")
+        told = width, height, depth, colour, interlace == 1, palette, transparency
+        return Header(*told) if b"sRGB" in title else Header(*told, (FOREIGN_PROFILE,), deflated[1:])
 
     def _check_size(self, width: int, height: int, whole: bool) -> None:
         """`whole`: it can only be decoded in one piece."""
@@ -165,7 +177,7 @@ class PngReader:
                 raise self._chunks.fail(f"chunk {kind.decode()}: a kind that must be understood, and is not known")
             else:
                 if kind == b"iCCP":
-                    kept[kind] = self._chunks.exactly(min(length, 80), "chunk iCCP")
+                    kept[kind] = self._chunks.exactly(min(length, _LARGEST_ICCP), "chunk iCCP")
                     length -= len(kept[kind])
                 self._chunks.skip(kind, length)
 

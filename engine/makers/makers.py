@@ -58,7 +58,8 @@ def _image(command: DefineTexture, root: Group, around: Around) -> Texture:
         holds = members.text(HOLDS, A_PICTURE)
         if holds not in (A_PICTURE, A_FILE):
             raise members.fault(HOLDS, f'"{A_PICTURE}", or "{A_FILE}" for the bytes of a file')
-        read = read_bytes if holds == A_FILE else partial(read_straight, room=room)
+        by_profile = members.flag("profile", False)
+        read = read_bytes if holds == A_FILE else partial(read_straight, room=room, converted=by_profile)
         source = _the_same(members, ImageSource.of_raster(command.name, read(path, around.folder)))
     return Texture("image", command.arguments, source)
 

@@ -75,13 +75,14 @@ def read_picture(path: str, folder: Path | None) -> np.ndarray:
     return planes_of(_read(path, folder))
 
 
-def read_straight(path: str, folder: Path | None, room: Room | None = None) -> Raster:
+def read_straight(path: str, folder: Path | None, room: Room | None = None, converted: bool = False) -> Raster:
     """Returns the pixels of a picture file, in as few bits as tell its planes.  A relative path starts from `folder`;
-    `room`: where they are put, of a PNG as they are read, which may be larger then."""
+    `room`: where they are put, of a PNG as they are read, which may be larger then; `converted`: to sRGB, from the
+    profile in the file."""
     if room is None:
-        return put_plainly(_read(path, folder))
-    pixels = read_png(_found(path, folder), path, replace(LIMITS, pixels=STREAMED), room)
-    return put_plainly(_read(path, folder) if pixels is None else pixels, room)
+        return put_plainly(_read(path, folder, converted))
+    pixels = read_png(_found(path, folder), path, replace(LIMITS, pixels=STREAMED), room, converted)
+    return put_plainly(_read(path, folder, converted) if pixels is None else pixels, room)
 
 
 def read_bytes(path: str, folder: Path | None) -> Raster:
@@ -96,11 +97,11 @@ def _found(path: str, folder: Path | None) -> Path:
     return where
 
 
-def _read(path: str, folder: Path | None) -> np.ndarray:
+def _read(path: str, folder: Path | None, converted: bool = False) -> np.ndarray:
     where = _found(path, folder)
     if has_layers(where):
         return read_sheet(where, path)
-    return read_image(where, path, replace(LIMITS, pixels=PIXELS_CAP))[0]
+    return read_image(where, path, replace(LIMITS, pixels=PIXELS_CAP), converted=converted)[0]
 
 
 def captured(members: Fields, root: Group) -> np.ndarray:

@@ -163,7 +163,8 @@ def _lasts(brush: Brush) -> bool:
 
 def _newer(parameters: Mapping[str, object]) -> bool:
     """Tells whether parameters of a texture are of version 2."""
-    return parameters.get("renew") is False or bool(parameters.get("turn")) or parameters.get("detail") == LEARNT
+    found = parameters.get("renew") is False, parameters.get("turn"), parameters.get("profile")
+    return any(found) or parameters.get("detail") == LEARNT
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

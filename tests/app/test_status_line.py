@@ -73,6 +73,7 @@ def test_of_a_large_picture_one_is_told_that_it_is_on_its_way(side, told):
 def test_a_picture_that_is_too_large_is_not_extrapolated_and_that_is_told(side, refined):
     desk, posted = desk_on(replace(ROW, name="sky")), []
     desk.post = posted.append
-    bringing._Lay(Path("sky.png"), Place(0, 0, 0), detail=0.5).arrive(desk, (side, side))
+    bringing._Lay(Path("sky.png"), Place(0, 0, 0), detail=0.5).arrive(desk, (side, side, refined))
     assert ("detail" in posted[0].command.arguments) == refined
+    assert ("profile" in posted[0].command.arguments) == refined
     assert ("extrapolated" in desk.message.text) == (not refined)

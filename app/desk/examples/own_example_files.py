@@ -60,7 +60,7 @@ def pixels_of(path: Path) -> np.ndarray:
     """Uint8 RGBA (h, w, 4), not premultiplied."""
     from engine.files.images import read_image
 
-    pixels, _ = read_image(path)
+    pixels, _ = read_image(path, converted=True)
     return pixels if pixels.dtype == np.uint8 else (pixels >> 8).astype(np.uint8)
 
 

@@ -27,7 +27,7 @@ class _OfFile(KeptPalette):
         from engine.files.images import read_image  # here, on the thread: it loads what reads JPEG
         from engine.files.swatches.picture_colours import picture_palette
 
-        pixels, _ = read_image(self.path, self.path.name)
+        pixels, _ = read_image(self.path, self.path.name, converted=True)
         return _any(picture_palette(pixels, plain_name(self.path.stem) or "Picture"), self.path.name)
 
 

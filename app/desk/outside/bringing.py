@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from immutables import Map
 
@@ -42,6 +42,15 @@ def offer(desk: Desk, path: Path, place: Place | None = None) -> None:
     desk.asked.show("bring in")
 
 
+class Arrival(NamedTuple):
+    """How a picture is laid: the layer's role; how strong ink goes on below its pixels, 0..1, None for none; whether
+    its colours are converted by the profile in its file."""
+
+    role: str = ""
+    detail: float | None = None
+    profile: bool = False
+
+
 @dataclass(frozen=True, slots=True)
 class _Lay(FileWork):
     path: Path
@@ -49,14 +58,15 @@ class _Lay(FileWork):
     role: str = ""
     detail: float | None = None
 
-    def carry_out(self) -> tuple[int, int]:
-        from engine.files.images import picture_size  # here: it takes its time to load
+    def carry_out(self) -> tuple[int, int, bool]:
+        from engine.files.images import picture_size, wants_conversion  # here: it takes its time to load
 
-        return picture_size(self.path)
+        return (*picture_size(self.path), wants_conversion(self.path))
 
-    def arrive(self, desk: Desk, found: tuple[int, int]) -> None:
+    def arrive(self, desk: Desk, found: tuple[int, int, bool]) -> None:
         large = found[0] * found[1] > _LARGEST
-        lay(desk, self.path, self.path.stem, found, self.place, self.role, None if large else self.detail)
+        told = Arrival(self.role, None if large else self.detail, found[2])
+        lay(desk, self.path, self.path.stem, found[:2], self.place, told)
         if large and self.detail is not None:
             desk.say(f"{self.path.name} is laid as it is: it has more pixels than are extrapolated")
 
@@ -72,20 +82,20 @@ def lay(
     stem: str,
     size: tuple[int, int],
     place: Place,
-    role: str = "",
-    detail: float | None = None,
+    laid: Arrival = Arrival(),  # noqa: B008  # it never changes
 ) -> None:
-    """Lays a picture of `size` (width, height) on a layer of its own, with its middle at a place; `detail`: how strong
-    ink goes on below its pixels, 0..1, None for none."""
+    """Lays a picture of `size` (width, height) on a layer of its own, with its middle at a place."""
     level = picture_level(desk.view.shown_level)
     x, y = place.pixel(level)
     texture, at = free_texture_name(desk, stem), (x - size[0] // 2, y - size[1] // 2)
     told: dict[str, Any] = {"path": str(path.absolute())}
-    if detail is not None:
-        told |= {"detail": "learnt", "strength": round(detail, 3)}
+    if laid.detail is not None:
+        told |= {"detail": "learnt", "strength": round(laid.detail, 3)}
+    if laid.profile:
+        told["profile"] = True
     desk.post(Do(DefineTexture(texture, "image", Map(told))))
     name = free_layer_name(desk, stem)
-    desk.post(Do(AddPicture(name, texture, level, at, role)))
+    desk.post(Do(AddPicture(name, texture, level, at, laid.role)))
     hint = f"Drag “{name}” where it belongs"
     desk.say(f"Laying “{name}”.  {hint}" if size[0] * size[1] >= _SLOW else hint)
     desk.hand.use("move")

@@ -23,7 +23,7 @@ def from_file(desk: Desk, path: Path) -> None:
 
 def texture_of(desk: Desk, path: Path) -> DefineTexture:
     """Returns what makes a texture of a picture file, under a name that none has yet."""
-    told = Map({"path": str(path.absolute()), "detail": "learnt"})
+    told = Map({"path": str(path.absolute()), "detail": "learnt", "profile": True})
     return DefineTexture(free_texture_name(desk, path.stem), "image", told)
 
 

@@ -18,7 +18,7 @@ from PIL import Image
 from engine.files.fault import Cancelled, FileError
 from engine.files.images import read_image
 from engine.files.limits import Limits
-from engine.files.png_writer import write_png
+from engine.files.png_writer import srgb_profile, write_png
 from engine.files.tiff_writer import write_tiff
 
 
@@ -58,6 +58,7 @@ def test_written_tiff_is_what_tifffile_and_we_read(size, dtype):
     assert meta.notes == ()
     with tifffile.TiffFile(io.BytesIO(file.getvalue())) as reference:
         page = reference.pages[0]
+        assert page.tags["InterColorProfile"].value == srgb_profile()
         assert page.shape == pixels.shape
         assert page.tags["ExtraSamples"].value == (2,)
     if dtype == np.uint8:  # libtiff

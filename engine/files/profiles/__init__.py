@@ -1,0 +1,1 @@
+"""ICC profiles: what colours of a file, or of a screen, mean."""
