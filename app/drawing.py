@@ -13,10 +13,12 @@ from imgui_bundle import imgui
 from app.canvas.ant_line import AntLine, AntPlan
 from app.canvas.overlay import Overlay
 from app.canvas.screen import Screen, ScreenPlan
+from app.canvas.screen_colours import ScreenColours
 from app.canvas.sheet_pass import SheetPass, SheetPlan
 from app.desk.desk import Desk
 from app.desk.moving.floating import rim_similarity
 from app.land.land_screen import LandScreen
+from engine.files.profiles.screen_table import ScreenTable
 
 assert imgui_bundle
 
@@ -31,6 +33,8 @@ class Drawing:
         self._line = AntLine(screen.ctx)
         self._ants: AntPlan | None = None
         self._sheets = SheetPass(screen.ctx)
+        self._colours = ScreenColours(screen.ctx)
+        self._table: ScreenTable | None = None  # by which the window is shown
         self._carried: SheetPlan | None = None
         self.drawn = False
 
@@ -38,6 +42,7 @@ class Drawing:
         """Draws what imgui shows over the canvas, if anything is to be seen that is not on the screen, or if that was
         `exposed`; True while something fades.  `fresh`: the textures that show something else now."""
         data = imgui.get_draw_data()
+        exposed, self._table = exposed or desk.proofing.shown is not self._table, desk.proofing.shown
         if desk.land.on or self._flown:
             return self._land_drawn(desk, now, fresh, exposed)
         sheets = desk.moving.sheets.plan()
@@ -57,8 +62,14 @@ class Drawing:
             if ants is not None and rim is not None:
                 self._line.draw(ants, rim, desk.view, desk.insets, desk.scale)
             self._overlay.draw(data)
-            glfw.swap_buffers(self._window)
+            self._send()
         return plan.moving
+
+    def _send(self) -> None:
+        """Puts what was drawn on the screen, in its colours."""
+        if self._table is not None:
+            self._colours.draw(self._table, self._screen.ctx.screen)
+        glfw.swap_buffers(self._window)
 
     def _land_drawn(self, desk: Desk, now: float, fresh: Set[int], exposed: bool) -> bool:
         """Draws the land in place of the canvas; once more the canvas, when it is closed."""
@@ -75,7 +86,7 @@ class Drawing:
             self._overlay.redraw(data)
             self._land.show(desk)
             self._overlay.draw(data)
-            glfw.swap_buffers(self._window)
+            self._send()
         return self._land.moving
 
     def _seen(self, desk: Desk, now: float, sheets: SheetPlan | None) -> ScreenPlan:

@@ -35,6 +35,7 @@ from app.desk.outside import bringing
 from app.desk.places import going
 from app.desk.preferring.preferred import Preferred
 from app.desk.previews import Previews
+from app.desk.proofing.proof_work import make_tables
 from app.desk.recovery.engine_thread import EngineThread, Start
 from app.desk.recovery.recovery_work import FindCards
 from app.desk.remembering.kept_views import ReadViews, ViewsWatched
@@ -192,6 +193,7 @@ class Window:
         self.desk.work(FindCards())  # first: its pictures are to be seen at once
         self.desk.work(ReadViews())
         self.desk.work(TakeStock(self.desk.remembered.kept, self._faults))
+        make_tables(self.desk, self.desk.preferred.now)
 
     def _taken(self, worker: Worker, again: bool) -> None:
         """Works with an engine's thread; `again`: it has the painting back that is on the screen."""

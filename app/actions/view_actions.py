@@ -73,6 +73,13 @@ def _light(desk: Desk) -> None:
     desk.light.on = not desk.light.on
 
 
+def _soft_proof(desk: Desk) -> None:
+    if desk.proofing.proof is None:
+        desk.say("Choose whose profile is imitated: Preferences, Display")
+        desk.asked.show("preferences")
+    desk.proofing.on = desk.proofing.proof is not None and not desk.proofing.on
+
+
 def _land(desk: Desk) -> None:
     desk.glide.land()
     desk.land.on = not desk.land.on
@@ -124,6 +131,10 @@ VIEW_ACTIONS: dict[str, A] = {
         _light,
         always,
         lambda desk: desk.light.on,
+    ),
+    "soft_proof": A(
+        "Soft proof", "View", ("Shift+J",), "See it as another screen or printer would show it; nothing is painted",
+        _soft_proof, always, lambda desk: desk.proofing.on,
     ),
     "land": A(
         "Terrain", "View", ("Ctrl+T",), "Fly over the painting as land, and paint on it", _land, ready,

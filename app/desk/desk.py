@@ -39,6 +39,7 @@ from app.desk.past.past_state import PastState
 from app.desk.places.place_state import PlaceState
 from app.desk.preferring.preferred import Preferred
 from app.desk.previews import FileRow
+from app.desk.proofing.proof_state import ProofState
 from app.desk.recovery.recovery_state import RecoveryState
 from app.desk.remembering.remembered import Remembered
 from app.desk.remembering.start_state import StartState
@@ -158,6 +159,7 @@ class Desk:
     selecting: SelectState = field(default_factory=SelectState)
     opened: OpenedFiles = field(default_factory=OpenedFiles)
     preferred: Preferred = field(default_factory=Preferred)
+    proofing: ProofState = field(default_factory=ProofState)
     remembered: Remembered = field(default_factory=Remembered)
     start: StartState = field(default_factory=StartState)
     solid: SolidState = field(default_factory=SolidState)

@@ -26,6 +26,7 @@ _LAND = (
 _ERROR = "How far the land lies from where it is drawn, as a rule and at most, in pixels of the window"
 _NARROW = 70.0  # ems of a line in which a notice needs the room of what can wait
 _MEGABYTE = 1 << 20
+_PROOF = 5.0  # ems of what is told of profiles: what lies beside it stays when it changes
 _PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
 
 
@@ -211,6 +212,9 @@ def _fields(desk: Desk, pointer_name: str, crowded: bool = False) -> list[tuple[
         out.append(
             (f"{turned} {'mirrored' if view.mirrored else ''}".strip(), "How the view is turned (5: upright)", 0.0, "")
         )
+    shown, told = desk.proofing.words()
+    if shown:
+        out.append((shown, told, _PROOF, "soft_proof"))
     if desk.land.on:
         out.append((error_text(desk.land), _ERROR, 0.0, ""))
     out += [

@@ -21,6 +21,7 @@ LARGEST_FILE = 1 << 20  # bytes
 
 PressureKnots = tuple[tuple[float, float], ...]
 MOST_KNOTS = 64
+_MOST_LETTERS = 4096
 _STRAIGHT: PressureKnots = ((0.0, 0.0), (1.0, 1.0))  # what changes nothing
 
 
@@ -30,7 +31,9 @@ class Preferences:
     files and the bin take at most so many together, and at most this part of the free disk; `megabytes` of memory that
     paintings may take, 0 for what fits the machine; `curve`: what pressures of a pen become, knots of 0..1, none where
     they stay; `constant`: the pressure of every pen, 0 where it is felt; `ignore_touch`: fingers do nothing; `scale` of
-    all that the window shows beside the canvas, in that of the screen; `font_size` in points."""
+    all that the window shows beside the canvas, in that of the screen; `font_size` in points; `profile`: a file's, by
+    which the screen shows colours, "screen" for what the system has, "none"; `proof`: the file of one that is imitated
+    on a key; `language`: that of the window, nothing for the system's."""
 
     versions: int = 3
     gigabytes: float = 5.0
@@ -41,6 +44,9 @@ class Preferences:
     ignore_touch: bool = False
     scale: float = 1.0
     font_size: float = 15.0
+    profile: str = "screen"
+    proof: str = ""
+    language: str = ""
 
 
 class Row(NamedTuple):
@@ -98,8 +104,21 @@ class Curve(NamedTuple):
         return self.put(found, tuple((float(a), float(b)) for a, b in knots)) if rising else None
 
 
+class Words(NamedTuple):
+    """What one line of the file names."""
+
+    put: Callable[[Preferences, str], Preferences]
+    expected: str
+
+    def taken(self, found: Preferences, value: object) -> Preferences | None:
+        """Returns the preferences with a text, None where that is none."""
+        good = isinstance(value, str) and len(value) <= _MOST_LETTERS and value.isprintable()
+        return self.put(found, value) if good and isinstance(value, str) else None
+
+
+_A_PROFILE = f"the path of an ICC profile, at most {_MOST_LETTERS} letters"
 MEGABYTES = Row(0, 1e6, True, lambda told, number: replace(told, megabytes=int(number)))
-SETTINGS: dict[tuple[str, str], Row | Switch | Curve] = {
+SETTINGS: dict[tuple[str, str], Row | Switch | Curve | Words] = {
     ("kept", "versions"): Row(1, 100, True, lambda told, number: replace(told, versions=int(number))),
     ("kept", "gigabytes"): Row(0.0, 1e6, False, lambda told, number: replace(told, gigabytes=number)),
     ("kept", "part_of_free"): Row(0.0, 1.0, False, lambda told, number: replace(told, part_of_free=number)),
@@ -109,6 +128,13 @@ SETTINGS: dict[tuple[str, str], Row | Switch | Curve] = {
     ("pen", "ignore_touch"): Switch(lambda told, on: replace(told, ignore_touch=on)),
     ("display", "scale"): Row(0.75, 3.0, False, lambda told, number: replace(told, scale=number)),
     ("display", "font_size"): Row(12.0, 20.0, False, lambda told, number: replace(told, font_size=number)),
+    ("display", "profile"): Words(
+        lambda told, path: replace(told, profile=path or "none"), f'"screen", "none" or {_A_PROFILE}'
+    ),
+    ("display", "proof"): Words(lambda told, path: replace(told, proof=path), f'"" or {_A_PROFILE}'),
+    ("display", "language"): Words(
+        lambda told, code: replace(told, language=code), '"" for that of the system, or such as "de"'
+    ),
 }
 
 

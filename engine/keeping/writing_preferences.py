@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 from pathlib import Path
@@ -10,7 +11,7 @@ from engine.files.atomic import replacing
 from engine.keeping.preferences import SETTINGS, Preferences, read_preferences
 
 _TABLE = re.compile(r"\s*\[\s*(\w+)\s*\]")
-_LINE = re.compile(r"(\s*(\w+)\s*=\s*)([^#\n]*?)(\s*(?:#.*)?)")
+_LINE = re.compile(r'(\s*(\w+)\s*=\s*)("(?:[^"\\\n]|\\.)*"|[^#\n]*?)(\s*(?:#.*)?)')
 
 
 def write_preferences(path: Path, told: Preferences) -> None:
@@ -61,6 +62,8 @@ def _value(told: Preferences, key: str) -> str:
     value = getattr(told, key)
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
     if isinstance(value, tuple):
         return "[" + ", ".join(f"[{a!r}, {b!r}]" for a, b in value) + "]" if value else "[[0.0, 0.0], [1.0, 1.0]]"
     return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else repr(value)

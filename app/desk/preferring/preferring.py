@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 from app.desk.desk import Desk, FileWork
+from app.desk.proofing.proof_work import make_tables
 from engine.keeping.preferences import Preferences, preferences_file
 from engine.keeping.writing_preferences import write_preferences
 
@@ -27,8 +29,16 @@ class KeepPreferences(FileWork):
         desk.say(f"Preferences are not kept: {fault}", bad=True)
 
 
+def prefer(desk: Desk, **told: Any) -> None:
+    """Has other preferences from now on, by their names."""
+    desk.preferred.now = replace(desk.preferred.now, **told)
+
+
 def keep_preferences(desk: Desk, told: Preferences) -> None:
     """Writes others than those of the file; once nothing is dragged any more."""
-    if told != desk.preferred.kept:
+    kept = desk.preferred.kept
+    if told != kept:
         desk.preferred.kept = told
         desk.work(KeepPreferences(told))
+        if (told.profile, told.proof) != (kept.profile, kept.proof):
+            make_tables(desk, told)

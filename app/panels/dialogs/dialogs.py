@@ -277,6 +277,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "bin": Bin,
     "preferences": PreferencesDialog,
     "workspaces": lambda desk: WorkspacesDialog(),
+    "screen profile": file_browser.choosing_profile("profile"),
+    "proof profile": file_browser.choosing_profile("proof"),
     "keys": Keys,
     "keys from": file_browser.choosing_keys,
     "keys to": file_browser.writing_keys,

@@ -24,8 +24,10 @@ from app.desk.holding.palette_shelf import PALETTES, WritePalette, bring_palette
 from app.desk.keys.kept_keys import GiveKeys
 from app.desk.outside import bringing, pictured
 from app.desk.outside.opened_files import OF_PAINTINGS
+from app.desk.preferring.preferring import keep_preferences, prefer
 from app.desk.presets import stem_of
 from app.desk.previews import FileRow
+from app.desk.proofing.proof_work import PROFILES
 from app.desk.sharing.preset_work import BRUSH, BRUSHES, SharePreset, bring_preset
 from app.desk.solids.cube_work import CUBES, bring_cube
 from app.panels.controls import widgets as w
@@ -305,6 +307,17 @@ def writing_palette(desk: Desk) -> SystemDialog | Browser:
     palette = palette_to_write(desk)
     name = f"{stem_of(palette.name)}.gpl"
     return _chooser(desk, "Write a palette", (".gpl",), lambda d, path: d.work(WritePalette(palette, path)), name)
+
+
+def choosing_profile(member: str) -> Callable[[Desk], SystemDialog | Browser]:
+    """Returns what asks for the profile that a member of the preferences names."""
+
+    def chosen(desk: Desk, path: Path) -> None:
+        prefer(desk, **{member: str(path.absolute())})
+        keep_preferences(desk, desk.preferred.now)
+        desk.asked.show("preferences")
+
+    return lambda desk: _chooser(desk, "Choose a profile", PROFILES, chosen)
 
 
 def choosing_keys(desk: Desk) -> SystemDialog | Browser:

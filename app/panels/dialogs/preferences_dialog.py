@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.actions.actions import keyed
 from app.desk.desk import Desk
-from app.desk.preferring.preferring import keep_preferences
+from app.desk.preferring.preferring import keep_preferences, prefer
+from app.desk.proofing.proof_work import BY_NONE, BY_SYSTEM
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
 from engine.keeping.preferences import Preferences, preferences_file
@@ -24,6 +26,8 @@ _PAGES = (
 _DOTS = 400  # of the test area at most
 _ROOM = 900, 560  # points of a window that panels and dialogs want
 _PERCENTS = (75, 100, 125, 150, 175, 200, 250, 300)
+_FILE = "file"  # in a list of profiles, that another one is asked for
+_MEMBERS = {"screen profile": "profile", "proof profile": "proof"}  # of the preferences
 _LATER = "From the next start on"
 
 
@@ -61,8 +65,8 @@ class PreferencesDialog:
         imgui.same_line()
         if w.text_button("Reset this page", "As they come", width=em * 9):
             usual = Preferences()
-            _change(desk, **{name: getattr(usual, name) for name in _OF_PAGES[self._page]})
-        return not closes
+            prefer(desk, **{name: getattr(usual, name) for name in _OF_PAGES[self._page]})
+        return not closes and desk.asked.dialog not in _MEMBERS
 
     def _pen(self, desk: Desk) -> None:
         now = desk.preferred.now
@@ -71,19 +75,19 @@ class PreferencesDialog:
         changed, curve = self._curve.row("Pressure", now.curve or None, (), hint)
         imgui.end_disabled()
         if changed:
-            _change(desk, curve=curve if isinstance(curve, tuple) else ())
+            prefer(desk, curve=curve if isinstance(curve, tuple) else ())
         hint = "Each pen paints with this pressure, however hard it is pressed"
         changed, on = w.tick("Constant pressure", bool(now.constant), hint)
         if changed:
-            _change(desk, constant=1.0 if on else 0.0)
+            prefer(desk, constant=1.0 if on else 0.0)
         if now.constant:
             changed, value = w.slider("How hard", now.constant, (0.05, 1.0), hint)
             if changed:
-                _change(desk, constant=value)
+                prefer(desk, constant=value)
         hint = "Fingers on the screen or the tablet do nothing, as far as the system tells them from pens"
         changed, on = w.tick("Ignore touch", now.ignore_touch, hint)
         if changed:
-            _change(desk, ignore_touch=on)
+            prefer(desk, ignore_touch=on)
         imgui.spacing()
         self._test(desk)
 
@@ -113,14 +117,10 @@ class PreferencesDialog:
 
 _OF_PAGES = {
     "pen": ("curve", "constant", "ignore_touch"),
-    "display": ("scale", "font_size"),
+    "display": ("scale", "font_size", "profile", "proof"),
     "memory": ("megabytes",),
     "files": ("versions", "gigabytes", "part_of_free"),
 }
-
-
-def _change(desk: Desk, **told: Any) -> None:
-    desk.preferred.now = replace(desk.preferred.now, **told)
 
 
 def _display(desk: Desk) -> None:
@@ -132,13 +132,34 @@ def _display(desk: Desk) -> None:
     sizes = [(f"{percent}", f"{percent} %") for percent in fitting]
     picked = w.choice("scale", f"{now.scale * 100:.0f}", sizes, hint, 9 * em)
     if picked:
-        _change(desk, scale=int(picked) / 100)
+        prefer(desk, scale=int(picked) / 100)
     imgui.spacing()
     imgui.text_disabled("Size of texts")
     points = [(f"{size}", f"{size} points") for size in range(12, 21)]
     picked = w.choice("points", f"{now.font_size:.0f}", points, "Of the font; panels widen as it grows", 9 * em)
     if picked:
-        _change(desk, font_size=float(picked))
+        prefer(desk, font_size=float(picked))
+
+    imgui.spacing()
+    imgui.text_disabled("Colours of the screen")
+    hint = "By which the window is shown; the painting and what is exported stay sRGB"
+    usual = ((BY_SYSTEM, "The system’s profile"), (BY_NONE, "Sent as they are"))
+    _profile(desk, "screen profile", now.profile, usual, hint)
+    imgui.spacing()
+    imgui.text_disabled("Soft proof")
+    _profile(
+        desk, "proof profile", now.proof, (("", "Nothing"),), keyed("What View > Soft proof imitates", "soft_proof")
+    )
+
+
+def _profile(desk: Desk, name: str, chosen: str, usual: tuple[tuple[str, str], ...], hint: str) -> None:
+    """Draws the choice of a profile: one of the usual ones, or a file that a dialog asks for."""
+    own = () if chosen in dict(usual) else ((chosen, Path(chosen).name),)
+    picked = w.choice(name, chosen, (*usual, *own, (_FILE, "A file…")), hint, 14 * imgui.get_font_size())
+    if picked == _FILE:
+        desk.asked.show(name)
+    elif picked is not None:
+        prefer(desk, **{_MEMBERS[name]: picked})
 
 
 def _memory(desk: Desk) -> None:
@@ -148,13 +169,13 @@ def _memory(desk: Desk) -> None:
         "As fits this machine", not now.megabytes, f"A quarter of its memory, at most 4 GB.  {_LATER}"
     )
     if changed:
-        _change(desk, megabytes=0 if own else 2048)
+        prefer(desk, megabytes=0 if own else 2048)
     if now.megabytes:
         changed, value = w.slider(
             "Memory", now.megabytes, (64.0, 65536.0), f"{hint}.  {_LATER}", form="%.0f MB", curved=True
         )
         if changed:
-            _change(desk, megabytes=round(value))
+            prefer(desk, megabytes=round(value))
     imgui.text_disabled(_LATER)
 
 
@@ -164,15 +185,15 @@ def _files(desk: Desk) -> None:
     hint = "How many earlier versions of each file are kept (File > Earlier versions)"
     changed, count = w.stepper("Versions", now.versions, (1, 100), hint)
     if changed:
-        _change(desk, versions=count)
+        prefer(desk, versions=count)
     hint = "All earlier versions and the bin take no more than this together"
     changed, value = w.slider("At most", now.gigabytes, (0.1, 500.0), hint, form="%.1f GB", curved=True)
     if changed:
-        _change(desk, gigabytes=round(value, 1))
+        prefer(desk, gigabytes=round(value, 1))
     hint = "And no more than this part of what is free on the disk"
     changed, value = w.slider("Of the free disk", now.part_of_free * 100, (1.0, 100.0), hint, form="%.0f %%")
     if changed:
-        _change(desk, part_of_free=round(value) / 100)
+        prefer(desk, part_of_free=round(value) / 100)
     imgui.text_disabled(_LATER)
     imgui.spacing()
     imgui.push_text_wrap_pos(0)

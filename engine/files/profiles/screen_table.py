@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from engine.files.fault import FileError
-from engine.files.profiles.converting import open_profile, transformed
+from engine.files.profiles.by_littlecms import open_profile, transformed
 from engine.files.profiles.icc_profile import Profile
 
 # Values of 8 bits at which colours are told: closer in the dark, where curves are steep.

@@ -16,6 +16,8 @@ CURVES = st.just(()) | st.lists(st.tuples(UNIT, UNIT), min_size=2, max_size=6, u
 TOLD = st.builds(
     Preferences, st.integers(1, 100), st.floats(0, 1e6), UNIT, st.integers(0, 10**6), CURVES, UNIT, st.booleans(),
     st.floats(0.75, 3), st.floats(12, 20),
+    st.sampled_from(["screen", "none", "/a b/ü#1 \"x\\.icc"]), st.sampled_from(["", "p.icm"]),
+    st.sampled_from(["", "de"]),
 )  # fmt: skip
 TEXT = "# mine\n[memory] # all of it\nmegabytes = 900   # enough\n\n[kept]\nversions=5\n"
 
