@@ -19,6 +19,7 @@ from app.desk.land.land_ring import ring_on_land
 from app.desk.moving import held_box
 from app.desk.moving.box import SCALES, TURN
 from app.desk.moving.move_state import TOOL
+from app.language import said
 from app.tools.tools import TOOLS
 
 _PATIENCE = 0.35  # seconds that something grows before that is shown
@@ -139,11 +140,11 @@ def draw_ghost(desk: Desk) -> None:
         painter.add_circle(at, radius + 0.5, theme.packed((0.0,) * 3, 0.55 * alpha), 0, 1.6 * desk.scale)
         painter.add_circle(at, radius - 0.5, theme.packed((1.0,) * 3, alpha), 0, 1.0 * desk.scale)
     text = f"{brush.radius:.1f} px   {brush.hardness:.0%} hard"
-    size, pad = imgui.calc_text_size(text), 5 * desk.scale
+    size, pad = said.calc_text_size(text), 5 * desk.scale
     x = at.x - size.x / 2
     y = min(at.y + brush.radius + 2 * pad, desk.view.height - size.y - 3 * pad)
     painter.add_rect_filled((x - pad, y - pad), (x + size.x + pad, y + size.y + pad), theme.packed(theme.PANEL), pad)
-    painter.add_text(ImVec2(x, y), theme.packed(theme.TEXT), text)
+    said.add_text(painter, ImVec2(x, y), theme.packed(theme.TEXT), text)
 
 
 def dab_rings(radius: float, hardness: float) -> list[tuple[float, float]]:

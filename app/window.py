@@ -49,6 +49,8 @@ from app.input.pointers import Pointers
 from app.input.window_box import box_of_window, kept_window_file
 from app.land.land_screen import LandScreen
 from app.land.land_wants import LandWants
+from app.language.wide_fonts import load_wide_font
+from app.language.words import speak
 from app.news import News
 from app.pace import Pace
 from app.panels.controls.folds import keep_folds_in
@@ -82,12 +84,14 @@ def _resize(desk: Desk, ctx: moderngl.Context, width: int, height: int) -> None:
         ctx.viewport = (0, 0, width, height)
 
 
-def _look(screen: float, preferences: Preferences) -> tuple[float, float]:
-    """Gives all beside the canvas the preferred sizes on a screen of so many pixels per point; pixels per point then,
-    and the font's size."""
+def _look(screen: float, preferences: Preferences) -> tuple[float, float, str]:
+    """Gives all beside the canvas the preferred sizes on a screen of so many pixels per point, and the language;
+    pixels per point then, the font's size, and the language that was chosen."""
     look = screen * preferences.scale, preferences.font_size
     theme.apply(*look)
-    return look
+    if not load_wide_font(speak(preferences.language)):
+        speak("en")
+    return *look, preferences.language
 
 
 def _lay_kept(desk: Desk) -> tuple[str, ...]:
@@ -251,7 +255,8 @@ class Window:
 
     def _panels(self) -> None:
         preferences = self.desk.preferred.now
-        if (self._screen_scale * preferences.scale, preferences.font_size) != self._look:
+        told = self._screen_scale * preferences.scale, preferences.font_size, preferences.language
+        if told != self._look:
             self._look = _look(self._screen_scale, preferences)
             self.desk.scale = self._look[0]
         backends.opengl3_new_frame()

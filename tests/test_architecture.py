@@ -29,7 +29,7 @@ ORDER = (
     ("engine.session",),
     ("engine.journal", "engine.film"),
     ("engine.studio",),
-    ("app.input", "app.theme", "app.icons", "app.trace", "app.faults"),
+    ("app.input", "app.theme", "app.icons", "app.trace", "app.faults", "app.language"),
     ("app.keys",),
     ("app.canvas",),
     ("app.desk",),

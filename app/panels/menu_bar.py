@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 from app.actions.action import Action
 from app.actions.actions import ACTIONS, MENUS, perform
 from app.desk.desk import Desk
+from app.language import said
 from app.panels import recent_menu
 from app.panels.arranging.workspaces_dialog import draw_workspaces
 from app.panels.controls import widgets as w
@@ -17,7 +18,7 @@ def draw(desk: Desk) -> float:
     if not imgui.begin_main_menu_bar():
         return 0.0
     for menu in MENUS:
-        if not imgui.begin_menu(menu):
+        if not said.begin_menu(menu):
             w.named(f"{menu} menu")
             continue
         _rows(desk, menu)
@@ -41,7 +42,7 @@ def _rows(desk: Desk, menu: str) -> None:
         elif action.menu.startswith(f"{menu}/") and action.menu not in drawn:
             drawn.add(action.menu)
             title = action.menu.partition("/")[2]
-            opened = imgui.begin_menu(title)
+            opened = said.begin_menu(title)
             w.named(f"{title} menu")
             if opened:
                 _rows(desk, action.menu)
@@ -51,7 +52,7 @@ def _rows(desk: Desk, menu: str) -> None:
 def _item(desk: Desk, action: Action) -> None:
     keys = action.keys[0] if action.keys else ""
     on = bool(action.checked and action.checked(desk))
-    if imgui.menu_item(action.title, keys, on, action.when(desk))[0]:
+    if said.menu_item(action.title, keys, on, action.when(desk))[0]:
         perform(desk, action)
     w.named(action.title)
     w.tooltip(action.hint)

@@ -8,6 +8,8 @@ from app import icons, theme
 from app.actions.actions import ACTIONS, perform
 from app.desk.desk import Desk
 from app.desk.notices import Notice
+from app.language import said
+from app.language.words import say
 from app.panels.controls import widgets as w
 
 LIST_WIDTH, LIST_HEIGHT = 44.0, 0.6  # of the list: ems; part of the window's height, at most
@@ -20,9 +22,9 @@ def count_button(desk: Desk, right: float, least: int = 1) -> float:
     count = len(desk.notices.rows)
     if count >= least:
         label = f"{icons.WARNING} {count} note{'s' if count > 1 else ''}"
-        right -= imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x
+        right -= said.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x
         imgui.same_line(right)
-        pressed = imgui.small_button(label)
+        pressed = said.small_button(label)
         w.named(label)
         w.tooltip("All that went wrong and is not dealt with, to be read at leisure")
         if pressed:
@@ -37,14 +39,14 @@ def draw(desk: Desk, right: float) -> None:
     notice = desk.notices.rows[-1]
     style, em = imgui.get_style(), imgui.get_font_size()
     named = [ACTIONS[offer].title for offer in _possible(desk, notice)] + (["Details"] if notice.lines else [])
-    taken = sum(imgui.calc_text_size(title).x + 2 * style.frame_padding.x + 0.5 * em for title in named) + 2 * em
-    text = _fitted(f"{icons.WARNING}  {notice.short}", right - imgui.get_cursor_pos_x() - taken)
-    imgui.text_colored(theme.vec(theme.WARN if notice.bad else theme.TEXT), text)
+    taken = sum(said.calc_text_size(title).x + 2 * style.frame_padding.x + 0.5 * em for title in named) + 2 * em
+    text = _fitted(say(f"{icons.WARNING}  {notice.short}"), right - imgui.get_cursor_pos_x() - taken)
+    said.text_colored(theme.vec(theme.WARN if notice.bad else theme.TEXT), text)
     w.named(notice.short)
     w.tooltip(notice.text)
     if notice.lines:
         imgui.same_line(0, em)
-        if imgui.small_button("Details"):
+        if said.small_button("Details"):
             imgui.open_popup(_LIST)
         w.named("Details")
         w.tooltip("All lines of it")
@@ -59,7 +61,7 @@ def _offers(desk: Desk, notice: Notice) -> None:
     for offer in _possible(desk, notice):
         imgui.same_line(0, 0.5 * em)
         action = ACTIONS[offer]
-        pressed = imgui.small_button(action.title)
+        pressed = said.small_button(action.title)
         w.named(action.title)
         w.tooltip(action.hint)
         if pressed:
@@ -103,13 +105,13 @@ def _entry(desk: Desk, notice: Notice) -> None:
     """Draws a notice in the list: its line, what closes it at the right end, all else that there is to read."""
     right = imgui.get_window_width() - imgui.get_style().window_padding.x - imgui.get_text_line_height()
     imgui.push_text_wrap_pos(right - imgui.get_font_size())
-    imgui.text_colored(theme.vec(theme.WARN if notice.bad else theme.TEXT), notice.text)
+    said.text_colored(theme.vec(theme.WARN if notice.bad else theme.TEXT), notice.text)
     w.named(notice.text)
     imgui.same_line(right)
     _close(desk, notice)
     for line in notice.lines:
         imgui.bullet()
-        imgui.text_unformatted(line)
+        said.text_unformatted(line)
         w.named(line)
     imgui.pop_text_wrap_pos()
     if _possible(desk, notice):
@@ -119,12 +121,12 @@ def _entry(desk: Desk, notice: Notice) -> None:
 
 def _fitted(text: str, width: float) -> str:
     """Returns a text that is at most so wide, cut in its middle if it must be."""
-    if imgui.calc_text_size(text).x <= width:
+    if said.calc_text_size(text).x <= width:
         return text
     few, many = 0, len(text)
     while few < many:
         half = (few + many + 1) // 2
-        few, many = (half, many) if imgui.calc_text_size(_cut(text, half)).x <= width else (few, half - 1)
+        few, many = (half, many) if said.calc_text_size(_cut(text, half)).x <= width else (few, half - 1)
     return _cut(text, few)
 
 

@@ -10,6 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.actions.action import ready
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import home_text, shortened
 from app.panels.starting.recent_pictures import PICTURE_EMS, ask_pictures, draw_file_picture
@@ -20,7 +21,7 @@ _WIDE = 22.0  # ems of a row
 def draw(desk: Desk) -> None:
     """Draws it into the present menu."""
     paths = desk.opened.paths
-    opened = imgui.begin_menu("Open recent", bool(paths) and ready(desk))
+    opened = said.begin_menu("Open recent", bool(paths) and ready(desk))
     w.named("Open recent")
     w.tooltip("Paintings that you opened or saved last")
     if not opened:
@@ -36,7 +37,7 @@ def draw_recent(desk: Desk, path: Path, ident: str, wide: float) -> bool:
     """Draws a painting's picture, name and folder; tells whether it was pressed."""
     em = imgui.get_font_size()
     corner, tall = imgui.get_cursor_screen_pos(), PICTURE_EMS * em
-    pressed = imgui.selectable(f"##{ident}", path == desk.known.path, 0, ImVec2(wide, tall))[0]
+    pressed = said.selectable(f"##{ident}", path == desk.known.path, 0, ImVec2(wide, tall))[0]
     w.named(path.name)
     w.tooltip(str(path))
     draw_file_picture(desk, path, corner, ImVec2(1.3 * tall, tall))
@@ -44,5 +45,5 @@ def draw_recent(desk: Desk, path: Path, ident: str, wide: float) -> bool:
     room = corner.x + wide - left - 0.3 * em
     painter.add_text(ImVec2(left, corner.y + 0.35 * em), theme.packed(theme.TEXT), shortened(path.name, room))
     where = shortened(home_text(path.parent), room)
-    painter.add_text(ImVec2(left, corner.y + 1.75 * em), theme.packed(theme.QUIET), where)
+    said.add_text(painter, ImVec2(left, corner.y + 1.75 * em), theme.packed(theme.QUIET), where)
     return pressed

@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions.actions import ACTIONS, perform, tip
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.studio.selecting.ants_records import Ants
 
@@ -38,14 +39,14 @@ def draw(desk: Desk, right: float) -> float:
         return right
     em, line = imgui.get_font_size(), imgui.get_text_line_height()
     label = f"{icons.SELECT_BOX}  {text}"
-    left = right - imgui.calc_text_size(label).x - line - 0.9 * em
+    left = right - said.calc_text_size(label).x - line - 0.9 * em
     imgui.same_line(left)
     corner, pad = imgui.get_cursor_screen_pos(), 0.35 * em
     end = ImVec2(corner.x + right - left, corner.y + line)
     painter = imgui.get_window_draw_list()
     low, high = ImVec2(corner.x - pad, corner.y - 2 * desk.scale), ImVec2(end.x, end.y + 2 * desk.scale)
     painter.add_rect_filled(low, high, theme.packed(theme.ACCENT_SOFT), 4 * desk.scale)
-    imgui.text_unformatted(label)
+    said.text_unformatted(label)
     w.named(text)
     w.tooltip(_hint(ants))
     imgui.same_line(right - line - 0.2 * em)

@@ -12,6 +12,8 @@ from app.actions.actions import ACTIONS, perform
 from app.canvas.view import zoom_text
 from app.desk.desk import Desk
 from app.desk.land.land_state import error_text
+from app.language import said
+from app.language.words import say
 from app.panels import notice_line, selection_chip
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
@@ -39,10 +41,10 @@ def draw(desk: Desk, pointer_name: str) -> None:
     crowded = bool(desk.notices.rows) and narrow
     memory = [] if narrow else [_memory(desk.known.held)]
     for label, hint, fixed, action in reversed(memory + _fields(desk, pointer_name, crowded)):
-        width = max(imgui.calc_text_size(label).x, fixed * imgui.get_font_size())
+        width = max(said.calc_text_size(label).x, fixed * imgui.get_font_size())
         right -= width
         imgui.same_line(right)
-        imgui.text_unformatted(label)
+        said.text_unformatted(label)
         if label:
             w.named(f"status: {label}")
         if action and imgui.is_item_hovered():
@@ -72,9 +74,9 @@ def _left(desk: Desk, right: float) -> None:
         imgui.dummy(ImVec2(0, 0))
     elif desk.examples.swapping:
         name = desk.examples.entry.title if desk.examples.entry else ""
-        imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
+        said.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
     elif desk.past.asking:
-        imgui.text_unformatted("Click a place: the strokes that show there are listed  (Esc: not now)")
+        said.text_unformatted("Click a place: the strokes that show there are listed  (Esc: not now)")
     elif desk.known.filming is not None:
         _offer(desk, f"Filming, {desk.known.filming * 100:.0f} %", "stop_film")
     elif desk.known.playing is not None:
@@ -85,9 +87,9 @@ def _left(desk: Desk, right: float) -> None:
         only = desk.stack.only
         _offer(desk, f"Only “{only}” is seen", "show_all")
     elif not desk.known.ready:
-        imgui.text_disabled("Loading the paint engine…")
+        said.text_disabled("Loading the paint engine…")
     else:
-        imgui.text_disabled(now_possible(desk))
+        said.text_disabled(now_possible(desk))
 
 
 def now_possible(desk: Desk) -> str:
@@ -109,11 +111,11 @@ def _opening(desk: Desk, opening: Opening) -> None:
     """Draws how far a file is opened, and what gives that up, which stays where it is."""
     left, em = imgui.get_cursor_pos_x(), imgui.get_font_size()
     text = f"Opening {opening.name}"
-    imgui.text_unformatted(f"{text}  {opening.part * 100:.0f} %" if opening.part else text)
+    said.text_unformatted(f"{text}  {opening.part * 100:.0f} %" if opening.part else text)
     w.named(text)
     w.tooltip("You can go on painting meanwhile")
-    imgui.same_line(left + imgui.calc_text_size(f"{text}  100 %").x + 0.7 * em)
-    pressed = imgui.small_button("Stop")
+    imgui.same_line(left + said.calc_text_size(f"{text}  100 %").x + 0.7 * em)
+    pressed = said.small_button("Stop")
     w.named("Stop")
     w.tooltip("Do not open it; the painting stays  (Escape)")
     if pressed:
@@ -135,11 +137,11 @@ def _message(desk: Desk, right: float) -> None:
     sign = f"{icons.WARNING}  " if bad else ""
     offers = [offer for offer in offered if ACTIONS[offer].when(desk)]
     pad = imgui.get_font_size() + 2 * imgui.get_style().frame_padding.x
-    buttons = sum(imgui.calc_text_size(ACTIONS[offer].title).x + pad for offer in offers)
-    shown = ended(sign + text, right - imgui.get_cursor_pos_x() - buttons)
-    imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), shown)
+    buttons = sum(said.calc_text_size(ACTIONS[offer].title).x + pad for offer in offers)
+    shown = ended(say(sign + text), right - imgui.get_cursor_pos_x() - buttons)
+    said.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), shown)
     w.named(text)
-    if shown != sign + text:
+    if shown != say(sign + text):
         w.tooltip(text)
     for offer in offers:
         _button(desk, offer)
@@ -147,14 +149,14 @@ def _message(desk: Desk, right: float) -> None:
 
 def _offer(desk: Desk, text: str, action: str) -> None:
     """Draws a line that holds for now, with a button for an action."""
-    imgui.text_unformatted(text)
+    said.text_unformatted(text)
     w.named(text)
     _button(desk, action)
 
 
 def _button(desk: Desk, offer: str) -> None:
     imgui.same_line(0, imgui.get_font_size())
-    pressed = imgui.small_button(ACTIONS[offer].title)
+    pressed = said.small_button(ACTIONS[offer].title)
     w.named(ACTIONS[offer].title)
     w.tooltip(ACTIONS[offer].hint)
     if pressed:

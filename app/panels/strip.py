@@ -15,6 +15,7 @@ from app import icons, theme
 from app.actions.action import Action
 from app.actions.actions import keyed
 from app.desk.desk import Desk, Hear
+from app.language import said
 from app.panels.arranging.docks import dock_unit
 from app.panels.controls import widgets as w
 from app.panels.examples.examples_panel import ExamplesPanel
@@ -73,10 +74,10 @@ class StripPanel:
         """Into the present window."""
         row, panel = STRIPS[desk.strip], self._panels[desk.strip]
         imgui.align_text_to_frame_padding()
-        imgui.text_colored(theme.vec((0.78,) * 3), f"{row.icon}  {row.title}")
+        said.text_colored(theme.vec((0.78,) * 3), f"{row.icon}  {row.title}")
         imgui.same_line(0, 14 * desk.scale)
         imgui.align_text_to_frame_padding()
-        imgui.text_disabled(panel.hint(desk) or row.hint)
+        said.text_disabled(panel.hint(desk) or row.hint)
         panel.bar(desk)
         imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
         closed = w.icon_button("close", icons.CLOSE, keyed("Close", desk.strip))

@@ -9,6 +9,7 @@ from app.desk import presets
 from app.desk.desk import Desk
 from app.desk.holding.taking import take_preset
 from app.desk.presets import Preset
+from app.language import said
 from app.panels.brush.preset_picture import THUMB
 from app.panels.brush.preset_tile import draw_tile, tall_of
 from app.panels.controls import widgets as w
@@ -58,7 +59,7 @@ class BrushList:
         imgui.begin_child("presets", ImVec2(0, max(imgui.get_content_region_avail().y, low)))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         for group, members in found:
-            imgui.text_disabled(group)
+            said.text_disabled(group)
             for i, preset in enumerate(members):
                 if i % across:
                     imgui.same_line()
@@ -68,7 +69,7 @@ class BrushList:
                     imgui.set_scroll_here_y(0.5)
         if not found:
             words = "No brush is called so" if desk.known.presets else "Loading brushes"
-            imgui.text_disabled(words)
+            said.text_disabled(words)
             w.named(words)
         imgui.pop_style_var()
         imgui.end_child()
@@ -87,7 +88,7 @@ class BrushList:
         imgui.same_line(0, gap)
         imgui.set_next_item_width(0.44 * room)
         flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.escape_clears_all
-        entered, self._find = imgui.input_text_with_hint("##find", "Find", self._find, flags)
+        entered, self._find = said.input_text_with_hint("##find", "Find", self._find, flags)
         w.named("Find")
         w.tooltip("Part of a brush’s name, or of its group’s; Enter takes the nearest")
         nearest = presets.nearest(desk.known.presets, self._find) if entered else None
@@ -114,7 +115,7 @@ class BrushList:
         for group, members in presets.found(desk.known.presets, EVERY, ""):
             top = imgui.get_cursor_pos().y
             imgui.set_cursor_pos_y(top + (tall_of(desk, wide) - em) / 2)
-            imgui.text_disabled(group)
+            said.text_disabled(group)
             imgui.set_cursor_pos_y(top)
             for i, preset in enumerate(members):
                 if i % across:

@@ -14,6 +14,7 @@ from app.desk.desk import Desk
 from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
 from app.desk.hand import go_on_with_brush
+from app.language import said
 from app.panels.brush import example_section, move_choice, shape_choice, tip_section
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.dynamics_section import DynamicsSection
@@ -147,7 +148,7 @@ class BrushPanel:
     def _modes(self, desk: Desk) -> None:
         """Buttons side by side, each as wide as its word asks for."""
         gap = 3 * desk.scale
-        words = [imgui.calc_text_size(row.label).x for row in MODES.values()]
+        words = [said.calc_text_size(row.label).x for row in MODES.values()]
         spare = (imgui.get_content_region_avail().x - sum(words) - gap * (len(MODES) - 1)) / len(MODES)
         imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(1, 4) * desk.scale)
         for i, row in enumerate(MODES.values()):

@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 from app import icons
 from app.desk.desk import Desk
 from app.desk.knots import STRAIGHT, at
+from app.language import said
 from app.panels.brush.felt_curves import (
     FALLING,
     OneCurve,
@@ -113,7 +114,7 @@ def _choose(desk: Desk, target: Target, free: list[Input]) -> None:
     if not imgui.begin_popup("inputs"):
         return
     for row in free:
-        if imgui.menu_item(row.label, "", False)[0]:
+        if said.menu_item(row.label, "", False)[0]:
             straight = raised(STRAIGHT, heights_of(target, None))
             _change(desk, target.name, row.name, spread(row.name, straight, row.span))
         w.named(f"by {row.label.lower()}")

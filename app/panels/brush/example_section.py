@@ -9,6 +9,7 @@ from app.actions.actions import tip
 from app.desk.desk import Desk
 from app.desk.examples import example_use, thumbnails
 from app.desk.examples.example_state import DEPTHS
+from app.language import said
 from app.panels.controls import widgets as w
 
 _SIZES = (
@@ -29,7 +30,7 @@ def draw(desk: Desk) -> None:
     _shown(desk)
     state, side, gap = desk.examples, imgui.get_frame_height(), 2 * desk.scale
     imgui.align_text_to_frame_padding()
-    imgui.text_disabled("Size")
+    said.text_disabled("Size")
     imgui.same_line(48 * desk.scale + imgui.get_style().window_padding.x)
     picked = w.segments("size", str(state.size), _SIZES, imgui.get_content_region_avail().x - side - gap)
     if picked is not None:
@@ -79,7 +80,7 @@ def _shown(desk: Desk) -> None:
     text = entry.title if entry is not None and ours else desk.hand.brush.example or "Choose an example"
     at = ImVec2(corner.x + side + 9 * scale, corner.y + (side - imgui.get_font_size()) / 2)
     painter.push_clip_rect(corner, ImVec2(end.x - 24 * scale, end.y), True)
-    painter.add_text(at, theme.packed(theme.TEXT), text)
+    said.add_text(painter, at, theme.packed(theme.TEXT), text)
     painter.pop_clip_rect()
     sign = ImVec2(end.x - 21 * scale, corner.y + (side - imgui.get_font_size()) / 2)
-    painter.add_text(sign, theme.packed(theme.QUIET), icons.GRID)
+    said.add_text(painter, sign, theme.packed(theme.QUIET), icons.GRID)

@@ -8,6 +8,7 @@ from app import theme
 from app.actions import actions
 from app.desk.desk import Desk
 from app.desk.framing.frame_state import FRAME_TOOL
+from app.language import said
 from app.panels.controls import widgets as w
 from app.tools.tools import TOOLS
 
@@ -39,7 +40,7 @@ def _list(desk: Desk) -> None:
     for name in MOVING_TOOLS:
         action, tool = actions.ACTIONS[name], TOOLS[name]
         keys = action.keys[0] if action.keys else ""
-        if imgui.menu_item(f"{tool.icon}  {tool.title}", keys, desk.hand.tool == name)[0]:
+        if said.menu_item(f"{tool.icon}  {tool.title}", keys, desk.hand.tool == name)[0]:
             actions.perform(desk, action)
         w.named(f"tool {name}")
         w.tooltip(action.hint)

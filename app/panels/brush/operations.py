@@ -14,6 +14,7 @@ from app import icons, theme
 from app.desk import ramps
 from app.desk.desk import Desk
 from app.desk.knots import STRAIGHT, Knots
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import Curve, CurveEditor
 from app.panels.controls.ramp_editor import RampEditor
@@ -77,20 +78,20 @@ class Operations:
         rows = {row.name: row for row in desk.known.tables.ops}
         label = "Formula" if name == "formula" else rows[name].label if name in rows else name
         imgui.set_next_item_width(-1)
-        if not imgui.begin_combo("##op", label, imgui.ComboFlags_.height_largest):
+        if not said.begin_combo("##op", label, imgui.ComboFlags_.height_largest):
             w.named("operation")
             w.tooltip(op_hint(rows[name]) if name in rows else "What a stroke does to the colours that are there")
             return None
         picked = None
         for group, listed in groupby(rows.values(), lambda row: row.group):
-            imgui.text_disabled(group)
+            said.text_disabled(group)
             for row in listed:
-                if imgui.selectable(f"   {row.label}##{row.name}", row.name == name)[0]:
+                if said.selectable(f"   {row.label}##{row.name}", row.name == name)[0]:
                     picked = row.name
                 w.named(row.label)
                 w.tooltip(op_hint(row))
         imgui.separator()
-        if imgui.selectable("Formula…", name == "formula")[0]:
+        if said.selectable("Formula…", name == "formula")[0]:
             picked = "formula"
         w.named("Formula…")
         w.tooltip("Write yourself what is added to each channel")
@@ -153,7 +154,7 @@ class Operations:
             imgui.open_popup("formulas")
         if imgui.begin_popup("formulas"):
             for title, text in FORMULAS:
-                if imgui.selectable(f"{title}##{text}", False)[0]:
+                if said.selectable(f"{title}##{text}", False)[0]:
                     self._text, changed, left = text, True, True
                 w.tooltip(text)
             imgui.end_popup()
@@ -209,15 +210,15 @@ def _mistake(formula: str, error: FormulaError) -> None:
     x = corner.x
     warn, quiet, height = theme.packed(theme.WARN), theme.packed((0.7,) * 3), imgui.get_text_line_height()
     for text, colour in ((before, quiet), (there, warn), (behind, quiet)):
-        width = max(imgui.calc_text_size(text).x, 4.0)
-        painter.add_text(ImVec2(x, corner.y), colour, text)
+        width = max(said.calc_text_size(text).x, 4.0)
+        said.add_text(painter, ImVec2(x, corner.y), colour, text)
         if colour == warn:
             painter.add_rect_filled(ImVec2(x, corner.y + height), ImVec2(x + width, corner.y + height + 2), warn)
         x += width
     imgui.dummy(ImVec2(1, height + 2))
     wanted = f"Column {error.column}: found {error.found}, expected {error.expected.partition(':')[0]}"
     imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.vec(theme.WARN), wanted)
+    said.text_colored(theme.vec(theme.WARN), wanted)
     imgui.pop_text_wrap_pos()
     w.tooltip(f"Found {error.found}, expected {error.expected}")
 

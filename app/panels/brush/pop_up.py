@@ -11,8 +11,10 @@ from app.desk.hand import HISTORY
 from app.desk.holding.favourites import favourites
 from app.desk.holding.taking import take_preset
 from app.desk.presets import Preset
+from app.language import said
 from app.panels.brush.preset_picture import THUMB, draw_picture
 from app.panels.controls import widgets as w
+from app.panels.controls.colour_popup import PICKER_FLAGS
 
 _ACROSS, _COLOURS_ACROSS = 5, 12
 _WHEEL, _TALL = 13.0, 11.1  # of the wheel, in ems: its width as it is told, and what it takes of it
@@ -56,7 +58,7 @@ class PopUp:
     def _favourites(self, desk: Desk) -> None:
         found = favourites(desk)
         if not found:
-            imgui.text_disabled("Stars in the list of brushes put them here")
+            said.text_disabled("Stars in the list of brushes put them here")
         for i, (digit, preset) in enumerate(found):
             if i % _ACROSS:
                 imgui.same_line()
@@ -77,7 +79,7 @@ def _favourite(desk: Desk, digit: int, preset: Preset) -> bool:
     at = ImVec2(corner.x + 4 * desk.scale, corner.y + 1 * desk.scale)
     painter.push_clip_rect(corner, end, True)
     grey = theme.packed((0.35,) * 3 if painted else (0.72,) * 3)
-    painter.add_text(at, grey, str(digit) if painted else f"{digit}\n{preset.name}")
+    said.add_text(painter, at, grey, str(digit) if painted else f"{digit}\n{preset.name}")
     painter.pop_clip_rect()
     return pressed
 
@@ -95,7 +97,7 @@ def _middle(desk: Desk, wide: float, em: float) -> None:
     inner = _WHEEL * em - imgui.get_style().item_inner_spacing.x  # of this the wheel is in the middle
     imgui.set_cursor_pos(ImVec2(left + (wide - inner) / 2, top))
     imgui.set_next_item_width(_WHEEL * em)
-    changed, value = imgui.color_picker3("##pop-up wheel", list(desk.hand.colour), w.PICKER_FLAGS)
+    changed, value = imgui.color_picker3("##pop-up wheel", list(desk.hand.colour), PICKER_FLAGS)
     w.named("pop-up wheel")
     if changed:
         desk.hand.colour = (value[0], value[1], value[2])

@@ -11,6 +11,7 @@ from app.desk.desk import Desk
 from app.desk.holding.favourites import digit_of, star
 from app.desk.presets import Preset
 from app.desk.sharing.preset_work import ChangePreset, DeletePreset, duplicate
+from app.language import said
 from app.panels.controls import widgets as w
 
 
@@ -42,7 +43,7 @@ def draw_menu(desk: Desk, preset: Preset) -> None:
         ("Share…", "Write it with all that it needs as one file", _share),
     ]
     for text, hint, do in rows:
-        if imgui.selectable(text, False)[0]:
+        if said.selectable(text, False)[0]:
             do(desk, preset)
         w.named(text)
         w.tooltip(hint)
@@ -67,7 +68,7 @@ def _own(desk: Desk, preset: Preset) -> None:
     ):
         imgui.set_next_item_width(imgui.get_font_size() * 12)
         flags = imgui.InputTextFlags_.enter_returns_true
-        done, text = imgui.input_text_with_hint(f"##{name}", name.capitalize(), getattr(_typed, name), flags)
+        done, text = said.input_text_with_hint(f"##{name}", name.capitalize(), getattr(_typed, name), flags)
         setattr(_typed, name, text)
         entered = entered or done
         w.named(f"brush {name}")

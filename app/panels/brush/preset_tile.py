@@ -8,6 +8,8 @@ from app import icons, theme
 from app.desk.desk import Desk
 from app.desk.holding.favourites import digit_of, star
 from app.desk.presets import Preset
+from app.language import said
+from app.language.words import say
 from app.panels.brush.preset_menu import draw_menu
 from app.panels.brush.preset_picture import THUMB, draw_stroke
 from app.panels.controls import widgets as w
@@ -59,9 +61,9 @@ def _star(desk: Desk, spot: tuple[float, float, float], digit: int) -> None:
     """Draws the star of a favourite, with its digit; that of another brush, which is pointed at, faintly."""
     (left, top, side), painter, size = spot, imgui.get_window_draw_list(), imgui.get_font_size()
     grey = theme.ACCENT if digit else (0.55,) * 3 if _within(spot) else (0.75,) * 3
-    painter.add_text(ImVec2(left + (side - size) / 2, top + (side - size) / 2), theme.packed(grey), icons.STAR)
+    said.add_text(painter, ImVec2(left + (side - size) / 2, top + (side - size) / 2), theme.packed(grey), icons.STAR)
     if digit:
-        at = ImVec2(left + (side - imgui.calc_text_size(str(digit)).x * 0.7) / 2, top + 0.3 * size)
+        at = ImVec2(left + (side - said.calc_text_size(str(digit)).x * 0.7) / 2, top + 0.3 * size)
         painter.add_text(imgui.get_font(), size * 0.7, at, theme.packed((1.0, 1.0, 1.0)), str(digit))
 
 
@@ -69,6 +71,7 @@ def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, floa
     """Draws a brush's name below its picture; a long one a little smaller."""
     painter, size = imgui.get_window_draw_list(), imgui.get_font_size()
     inset = 0.35 * size
+    name = say(name)
     wide = imgui.calc_text_size(name).x
     fits = max(0.8, min(1.0, (end.x - corner.x - 1.2 * inset) / max(wide, 1.0)))
     at = ImVec2(corner.x + (inset if fits == 1.0 else 0.6 * inset), corner.y + size * (1 - fits) / 2)

@@ -10,6 +10,7 @@ from app.desk.desk import Desk
 from app.desk.hand import mixed_now
 from app.desk.presets import Preset
 from app.desk.sharing.preset_work import AddPreset, is_changed, keep_changes, take_back
+from app.language import said
 from app.panels.controls import widgets as w
 
 
@@ -32,7 +33,7 @@ class SaveBrush:
         if not imgui.begin_popup("save brush"):
             return
         em = imgui.get_font_size()
-        imgui.text_disabled("Save this brush")
+        said.text_disabled("Save this brush")
         if imgui.is_window_appearing():
             imgui.set_keyboard_focus_here()
         imgui.set_next_item_width(em * 14)
@@ -41,9 +42,9 @@ class SaveBrush:
         w.tooltip("Its name among your own brushes")
         name = presets.free_brush_name(self._name, desk.known.presets)
         if any(p.name == name and presets.is_own(p) for p in desk.known.presets):
-            imgui.text_disabled("Replaces your brush of this name")
+            said.text_disabled("Replaces your brush of this name")
         elif name != " ".join(self._name.split()):
-            imgui.text_disabled(f"Saved as “{name}”")
+            said.text_disabled(f"Saved as “{name}”")
         _, self._coloured = w.tick("With its colour", self._coloured, "Whoever chooses it paints in this colour then")
         if w.text_button("Save", "Write it into the folder of your brushes", width=em * 6) or entered:
             _save(desk, name, self._coloured)
@@ -70,8 +71,8 @@ def draw_changed(desk: Desk) -> None:
     right = imgui.get_style().window_padding.x + imgui.get_content_region_avail().x
     word = "changed"
     imgui.same_line(0, 0)
-    imgui.set_cursor_pos_x(right - 2 * (side + gap) - imgui.calc_text_size(word).x)
-    imgui.text_disabled(word)
+    imgui.set_cursor_pos_x(right - 2 * (side + gap) - said.calc_text_size(word).x)
+    said.text_disabled(word)
     w.tooltip(f"It is no longer “{desk.hand.preset}” as it was chosen")
     imgui.same_line(0, gap)
     if w.icon_button("brush back", icons.UNDO, f"Back to “{desk.hand.preset}”", size=side):

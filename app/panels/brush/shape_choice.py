@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 from app import icons
 from app.actions import actions
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from app.tools.shape_gestures import DRAWN
 from app.tools.tools import TOOLS
@@ -22,7 +23,7 @@ def draw(desk: Desk, side: float) -> None:
         return
     for name in DRAWN:
         action, tool = actions.ACTIONS[name], TOOLS[name]
-        if imgui.menu_item(f"{tool.icon}  {tool.title}", (*action.keys, "")[0], desk.hand.tool == name)[0]:
+        if said.menu_item(f"{tool.icon}  {tool.title}", (*action.keys, "")[0], desk.hand.tool == name)[0]:
             actions.perform(desk, action)
         w.named(f"shape {name}")
         w.tooltip(tool.hint)

@@ -17,8 +17,10 @@ from app.desk.desk import Desk
 from app.desk.hand import mixed_now
 from app.desk.holding import dipping
 from app.desk.lab_state import lightened
+from app.language import said
 from app.panels.controls import texture_choice, texture_rows
 from app.panels.controls import widgets as w
+from app.panels.controls.colour_popup import colour_popup
 from app.panels.controls.curve_editor import CurveEditor
 from app.panels.controls.kept_switch import kept_switch
 from engine.brush.parts import Edge, Surface, Tip
@@ -93,7 +95,7 @@ class Texturing:
 
     def _grain(self, desk: Desk, part: Surface) -> Surface:
         part = texture_choice.surface(desk, part, "Papers, and any other texture")
-        _, desk.hand.paper_stays = imgui.checkbox("For every brush", desk.hand.paper_stays)
+        _, desk.hand.paper_stays = said.checkbox("For every brush", desk.hand.paper_stays)
         w.tooltip("The paper stays when you take another brush")
         part = _amount(part, "How deep the grain is: light touches reach its peaks alone")
         hint = "The level in whose pixels the grain is measured; higher is finer. It stays on the canvas as you zoom"
@@ -166,7 +168,7 @@ def _tint(desk: Desk, part: Edge) -> Edge:
     """Returns the colour at the rim, if it has one of its own."""
     side = imgui.get_frame_height()
     on = part.colour is not None
-    changed, on = imgui.checkbox("Tint", on)
+    changed, on = said.checkbox("Tint", on)
     w.tooltip("The paint turns to another colour at the rim")
     if changed:
         part = replace(part, colour=to_hex(tuple(v * 0.5 for v in desk.hand.colour)) if on else None)  # type: ignore[arg-type]
@@ -174,7 +176,7 @@ def _tint(desk: Desk, part: Edge) -> Edge:
         imgui.same_line()
         if w.swatch("tint", part.rgb, "The colour at the rim", (side * 2, side)):
             imgui.open_popup("tint colour")
-        rgb = w.colour_popup("tint colour", part.rgb)
+        rgb = colour_popup("tint colour", part.rgb)
         if rgb is not None:
             part = replace(part, colour=to_hex(rgb))
         imgui.same_line()

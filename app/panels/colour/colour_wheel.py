@@ -18,6 +18,7 @@ from app.desk.holding.kept_desk import change_kept
 from app.desk.holding.wheel_record import WheelSet
 from app.panels.colour.colour_disc import Round, draw_disc, draw_mask, draw_spot
 from app.panels.controls import widgets as w
+from app.panels.controls.colour_popup import PICKER_FLAGS
 
 WHEEL_SIDE = 12.0  # of a letter: how wide the wheel is, with the room that it keeps beside itself
 _RING = 0.46  # of the picker's height: how far out the middle of its ring lies
@@ -108,7 +109,7 @@ def wheel_sizes(room: float) -> tuple[float, float]:
 
 def _on_ring(desk: Desk, side: float) -> RGB | None:
     imgui.set_next_item_width(side)
-    changed, value = imgui.color_picker3("##wheel", list(desk.hand.colour), w.PICKER_FLAGS)
+    changed, value = imgui.color_picker3("##wheel", list(desk.hand.colour), PICKER_FLAGS)
     w.named("wheel")
     if changed:
         desk.hand.colour = (value[0], value[1], value[2])

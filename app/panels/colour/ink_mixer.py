@@ -14,8 +14,10 @@ from app.desk.examples.following import Following
 from app.desk.hand import mixed_now
 from app.desk.holding import dipping
 from app.desk.outside import pictured
+from app.language import said
 from app.panels.controls import texture_choice, texture_rows
 from app.panels.controls import widgets as w
+from app.panels.controls.colour_popup import colour_popup
 from app.panels.controls.curve_editor import CurveEditor
 from app.panels.controls.kept_switch import kept_switch
 from engine.brush.settings import COMPONENTS_CAP, Brush, Component
@@ -96,7 +98,7 @@ class InkPanel:
         side, gap = imgui.get_frame_height(), imgui.get_style().item_spacing.x
         if w.swatch("colour", component.rgb, "The colour this texture leads to", (side, side)):
             imgui.open_popup("tint")
-        rgb = w.colour_popup("tint", component.rgb)
+        rgb = colour_popup("tint", component.rgb)
         if rgb is not None:
             component = replace(component, colour=to_hex(rgb))
         imgui.same_line()
@@ -124,7 +126,7 @@ class InkPanel:
         imgui.set_next_window_size(ImVec2(imgui.get_font_size() * 17, 0))
         if not imgui.begin_popup("settings"):
             return component
-        imgui.text_disabled(texture_rows.label(desk, component.texture))
+        said.text_disabled(texture_rows.label(desk, component.texture))
         parameters = texture_rows.sliders(desk, component.texture, component.parameters)
         if parameters != component.parameters:
             component = replace(component, parameters=parameters)
@@ -142,7 +144,7 @@ class InkPanel:
         if desk.hand.brush.extent or any(
             texture_rows.texture_kind(desk, part.texture) == "sparse" for part in desk.hand.brush.ink
         ):
-            changed, on = imgui.checkbox("Whole marks at the rim", desk.hand.brush.extent)
+            changed, on = said.checkbox("Whole marks at the rim", desk.hand.brush.extent)
             w.named("Whole marks at the rim")
             w.tooltip("The rim of a stroke takes the shape of the texture's marks: none is cut")
             if changed:
@@ -160,11 +162,11 @@ class InkPanel:
         texture_choice.limit(desk)
         if not imgui.begin_popup("add texture"):
             return
-        if imgui.selectable("Picture from a file…", False)[0]:
+        if said.selectable("Picture from a file…", False)[0]:
             desk.asked.show("texture picture")
         w.named("Picture from a file…")
         w.tooltip("Paint with a PNG, JPEG or TIFF; it repeats, and shows its own detail as you zoom in")
-        if imgui.selectable("What is in view", False)[0]:
+        if said.selectable("What is in view", False)[0]:
             pictured.from_view(desk)
         w.named("What is in view")
         w.tooltip("Paint with what the canvas shows now, finer detail included")

@@ -9,6 +9,7 @@ from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.holding.palette_making import ask_palette_of_view
 from app.desk.holding.palette_shelf import palette_to_write, show_palette, shown_palette
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.files.swatches.colour_list import ColourList
 
@@ -44,12 +45,12 @@ def _making(desk: Desk) -> None:
     """Draws what a palette can be made of."""
     if not imgui.begin_popup("make palette of"):
         return
-    if imgui.selectable("A picture file…", False)[0]:
+    if said.selectable("A picture file…", False)[0]:
         desk.asked.show("palette of picture")
     w.named("A picture file…")
     w.tooltip("A PNG, JPEG or TIFF: up to 24 colours that stand for all of it")
     imgui.begin_disabled(not desk.known.ready)
-    if imgui.selectable("What is in view", False)[0]:
+    if said.selectable("What is in view", False)[0]:
         ask_palette_of_view(desk)
     w.named("What is in view")
     w.tooltip("The colours of the painting that the canvas shows now, with its paper")

@@ -14,6 +14,7 @@ from app.desk.holding.gamut_mask import MASK_SHAPES, shaped_mask
 from app.desk.holding.harmonies import HARMONIES, SHADES, shades
 from app.desk.holding.kept_desk import change_kept
 from app.desk.holding.wheel_record import WheelSet
+from app.language import said
 from app.panels.controls import widgets as w
 
 _WIDEST = 1.25  # of a control's height: a shade
@@ -85,7 +86,7 @@ def _harmonies(desk: Desk, wheel: WheelSet) -> None:
     if not imgui.begin_popup("harmonies"):
         return
     for name, row in HARMONIES.items():
-        if imgui.selectable(row.title, name == wheel.harmony)[0]:
+        if said.selectable(row.title, name == wheel.harmony)[0]:
             _set(desk, replace(wheel, harmony=name))
         w.named(row.title)
         w.tooltip(row.hint)
@@ -101,7 +102,7 @@ def _masks(desk: Desk, wheel: WheelSet, hue: float) -> None:
         _set(desk, replace(wheel, corners=corners, masked=on, disc=True))
     imgui.separator()
     for name, row in MASK_SHAPES.items():
-        if imgui.selectable(row.title, False)[0]:
+        if said.selectable(row.title, False)[0]:
             _set(desk, replace(wheel, corners=shaped_mask(name, hue), masked=True, disc=True))
         w.named(row.title)
         w.tooltip(f"{row.hint}\nIt is turned towards the present hue; drag its corners to reshape it")

@@ -16,6 +16,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.desk import knots
 from app.desk.knots import Knots
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.numeric.curves import smooth_curve
 from engine.studio.results import CurveRow
@@ -58,14 +59,14 @@ class CurveEditor:
         end = ImVec2(corner.x + width, corner.y + height)
         ground = theme.HOVER if hovered else theme.FIELD
         painter.add_rect_filled(corner, end, theme.packed(ground), imgui.get_style().frame_rounding)
-        painter.add_text(
-            ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.partition("##")[0]
+        said.add_text(
+            painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.partition("##")[0]
         )
         picture = ImVec2(end.x - height * 1.5 - 2, corner.y + 3), ImVec2(end.x - 4, end.y - 3)
         plot(*picture, self._line(shape_of(curve, rows)), 1.5)
         text = title_of(curve, rows)
-        at = ImVec2(picture[0].x - pad.x - imgui.calc_text_size(text).x, corner.y + pad.y)
-        painter.add_text(at, theme.packed(theme.TEXT if curve is not None else theme.QUIET), text)
+        at = ImVec2(picture[0].x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
+        said.add_text(painter, at, theme.packed(theme.TEXT if curve is not None else theme.QUIET), text)
         _beside(corner, end)
         return self._popup(label, curve, rows)
 
@@ -73,7 +74,7 @@ class CurveEditor:
         if not imgui.begin_popup(f"edit {label}"):
             return False, curve
         before, side = curve, imgui.get_font_size() * _SIDE
-        imgui.text_disabled(label.partition("##")[0])
+        said.text_disabled(label.partition("##")[0])
         button, gap = imgui.get_frame_height(), imgui.get_style().item_spacing.x
         if rows:
             named = w.choice(
@@ -93,7 +94,7 @@ class CurveEditor:
         if w.icon_button("reset", icons.UNDO, "Back to the first", enabled=curve is not None):
             curve = None
         curve = self._canvas(curve, rows, side)
-        imgui.text_disabled("Drag to draw" if self.by_hand else "Click to add, right click to remove")
+        said.text_disabled("Drag to draw" if self.by_hand else "Click to add, right click to remove")
         imgui.end_popup()
         return curve != before, curve
 

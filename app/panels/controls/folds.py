@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
+from app.language import said
 from app.panels.controls.grips import note_grip
 
 _chosen: dict[str, bool] = {}
@@ -22,7 +23,7 @@ def folding_header(title: str, flags: int = 0, turned: bool | None = None) -> bo
         _chosen[title] = turned
     elif title in _chosen:
         imgui.set_next_item_open(_chosen[title], imgui.Cond_.once)
-    opened = imgui.tree_node_ex(f"{title}##section", flags | imgui.TreeNodeFlags_.no_tree_push_on_open)
+    opened = said.tree_node(f"{title}##section", flags | imgui.TreeNodeFlags_.no_tree_push_on_open)
     note_grip()
     if imgui.is_item_toggled_open():
         _chosen[title] = opened

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from imgui_bundle import imgui
 
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.canvas.placing.pose import FARTHEST
 
@@ -25,7 +26,7 @@ class NumberFields:
         by Return."""
         if sign:
             imgui.align_text_to_frame_padding()
-            imgui.text_disabled(sign)
+            said.text_disabled(sign)
             imgui.same_line(0, 0.3 * imgui.get_font_size())
         imgui.set_next_item_width(width * imgui.get_font_size())
         entered, text = imgui.input_text(f"##{name}", self._text if self._typing == name else value, _FLAGS)

@@ -11,6 +11,7 @@ from app.desk import ramps
 from app.desk.colours import from_hex, to_hex
 from app.desk.ramps import Stops
 from app.panels.controls import widgets as w
+from app.panels.controls.colour_popup import colour_popup
 
 
 class RampEditor:
@@ -59,7 +60,7 @@ class RampEditor:
         rgb = from_hex(stops[self._chosen][1])
         if w.swatch("stop", rgb, "The chosen stop's colour", (side * 2, side)):
             imgui.open_popup("stop colour")
-        changed = w.colour_popup("stop colour", rgb)
+        changed = colour_popup("stop colour", rgb)
         if changed is not None:
             stops = ramps.recoloured(stops, self._chosen, to_hex(changed))
         imgui.same_line()

@@ -11,6 +11,7 @@ from immutables import Map
 from app import theme
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import texture_rows
 from app.panels.controls import widgets as w
 from app.tools.filling_gestures import drop_texture
@@ -31,7 +32,7 @@ def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | N
     known = any(name == texture for name, _ in texture_rows.names(desk))
     shown = texture_rows.label(desk, texture) + ("" if known else " (not here)")
     limit(desk)
-    if not imgui.begin_combo("##texture", shown, imgui.ComboFlags_.height_largest):
+    if not said.begin_combo("##texture", shown, imgui.ComboFlags_.height_largest):
         w.tooltip(hint)
         return None
     chosen = listed(desk, texture, ("white",))
@@ -47,10 +48,10 @@ def surface(desk: Desk, part: Surface, hint: str) -> Surface:
     imgui.set_next_item_width(-1)
     limit(desk)
     shown = paper or (f"{same}, changed" if same else texture_rows.label(desk, part.texture))
-    if not imgui.begin_combo("##surface", shown, imgui.ComboFlags_.height_largest):
+    if not said.begin_combo("##surface", shown, imgui.ComboFlags_.height_largest):
         w.tooltip(hint)
         return part
-    imgui.text_disabled("Papers")
+    said.text_disabled("Papers")
     chosen = part
     for i, one in enumerate(desk.known.papers):
         if i % ACROSS:
@@ -76,7 +77,7 @@ def listed(desk: Desk, current: str = "", without: tuple[str, ...] = ()) -> str 
     for title, rows in texture_rows.groups(desk):
         shown = [row for row in rows if row[0] not in without]
         if shown:
-            imgui.text_disabled(title)
+            said.text_disabled(title)
         for i, (name, hint) in enumerate(shown):
             if i % ACROSS:
                 imgui.same_line()
@@ -91,7 +92,7 @@ def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
     """Returns a texture's picture beside a label, to be pressed."""
     scale, corner = desk.scale, imgui.get_cursor_screen_pos()
     wide, tall = (size * scale for size in _PICTURE)
-    pressed = imgui.selectable(f"##{label} {name}", on, 0, ImVec2(wide + NAME * scale, tall))[0]
+    pressed = said.selectable(f"##{label} {name}", on, 0, ImVec2(wide + NAME * scale, tall))[0]
     w.named(f"texture {label}")
     w.tooltip(f"{label}\n{hint}\nDrag it into a region to fill that".strip())
     if _dragged(desk, name):
@@ -106,7 +107,7 @@ def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
         painter.add_image_rounded(shown, corner, end, zero, one, white, 3 * scale)
     at = ImVec2(end.x + 7 * scale, corner.y + (tall - imgui.get_font_size()) / 2)
     painter.push_clip_rect(corner, ImVec2(end.x + NAME * scale, end.y), True)
-    painter.add_text(at, theme.packed(theme.TEXT), label)
+    said.add_text(painter, at, theme.packed(theme.TEXT), label)
     painter.pop_clip_rect()
     return pressed
 

@@ -6,11 +6,11 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from imgui_bundle import imgui
 from immutables import Map
 
 from app import icons
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.checks.values import is_number
 from engine.makers import definitions
@@ -144,7 +144,7 @@ def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any
 
 def _renewed(renewed: bool) -> tuple[bool, bool]:
     """Shows whether octaves are renewed: whether that was changed, and how it is now."""
-    changed, lasting = imgui.checkbox("For heights", not renewed)
+    changed, lasting = said.checkbox("For heights", not renewed)
     w.named("For heights")
     w.tooltip("What is seen from afar stays as it is when you come nearer: for land. Contrast fades deep down")
     return changed, not lasting

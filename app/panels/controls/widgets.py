@@ -9,6 +9,8 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme, trace
+from app.language import said
+from app.language.words import meant, say
 from app.panels.controls.fields_in_sight import note_slider
 from app.panels.controls.folds import folding_header
 
@@ -20,6 +22,7 @@ _LISTED = 1  # in a window's storage: in which frame a list that drops down was 
 def tooltip(text: str, *, beside: bool = False) -> None:
     """Draws the hint of the item just drawn, after a short rest of the pointer.  `beside`: to the left of its window,
     so that it covers none of what is in it.  Its size is that of this text: by itself it takes one a frame later."""
+    text = say(text)
     if text and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip | imgui.HoveredFlags_.allow_when_disabled):
         if beside:
             edge = imgui.internal.get_current_window_read().root_window.pos.x - 4 * imgui.get_style().font_scale_dpi
@@ -47,7 +50,7 @@ def placed(label: str, corner: ImVec2, end: ImVec2) -> None:
         return
     text, _, hidden = label.partition("##")
     text = "".join(letter for letter in text if not "\ue000" <= letter <= "\uf8ff").strip(" +")
-    window = imgui.internal.get_current_window_read().root_window.name.partition("##")[0]
+    window = meant(imgui.internal.get_current_window_read().root_window.name.partition("##")[0])
     least, most = imgui.get_window_draw_list().get_clip_rect_min(), imgui.get_window_draw_list().get_clip_rect_max()
     left, top = round(max(corner.x, least.x)), round(max(corner.y, least.y))
     right, bottom = round(min(end.x, most.x)), round(min(end.y, most.y))
@@ -75,7 +78,7 @@ def icon_button(
 def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
     """Draws a button with a text and a tooltip; tells whether it was pressed."""
     imgui.begin_disabled(not enabled)
-    pressed = imgui.button(label, ImVec2(width, 0))
+    pressed = said.button(label, ImVec2(width, 0))
     imgui.end_disabled()
     named(label)
     tooltip(hint)
@@ -85,13 +88,13 @@ def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0
 def lines_button(lines: Sequence[str], hint: str, width: float) -> bool:
     """Draws a button with lines of text, each in its middle; tells whether it was pressed.  The first is its name."""
     line, padding = imgui.get_text_line_height(), imgui.get_style().frame_padding.y
-    pressed = imgui.button(f"##{lines[0]}", ImVec2(width, len(lines) * line + 2 * padding))
+    pressed = said.button(f"##{lines[0]}", ImVec2(width, len(lines) * line + 2 * padding))
     named(lines[0])
     tooltip(hint)
     corner, painter = imgui.get_item_rect_min(), imgui.get_window_draw_list()
     for i, text in enumerate(lines):
-        left = corner.x + (width - imgui.calc_text_size(text).x) / 2
-        painter.add_text(ImVec2(round(left), corner.y + padding + i * line), theme.packed(theme.TEXT), text)
+        left = corner.x + (width - said.calc_text_size(text).x) / 2
+        said.add_text(painter, ImVec2(round(left), corner.y + padding + i * line), theme.packed(theme.TEXT), text)
     return pressed
 
 
@@ -196,9 +199,11 @@ def slider(
     if not typing:
         pad = imgui.get_style().frame_padding
         text = _number(form, value)
-        painter.add_text(ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.split("##")[0])
-        at = ImVec2(end.x - pad.x - imgui.calc_text_size(text).x, corner.y + pad.y)
-        painter.add_text(at, theme.packed(theme.TEXT), text)
+        said.add_text(
+            painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.split("##")[0]
+        )
+        at = ImVec2(end.x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
+        said.add_text(painter, at, theme.packed(theme.TEXT), text)
     tooltip(hint)
     return changed, max(lo, min(hi, value)) if changed else value
 
@@ -241,9 +246,9 @@ def stepper(label: str, value: int, bounds: tuple[int, int], hint: str) -> tuple
     painter, pad = imgui.get_window_draw_list(), imgui.get_style().frame_padding
     end, text = ImVec2(corner.x + wide, corner.y + side), str(value).replace("-", "−")
     painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), imgui.get_style().frame_rounding)
-    painter.add_text(ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label)
-    at = ImVec2(end.x - pad.x - imgui.calc_text_size(text).x, corner.y + pad.y)
-    painter.add_text(at, theme.packed(theme.TEXT), text)
+    said.add_text(painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label)
+    at = ImVec2(end.x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
+    said.add_text(painter, at, theme.packed(theme.TEXT), text)
     imgui.same_line(0, gap)
     if icon_button(f"{label} more", icons.ADD, hint, enabled=value < bounds[1], size=side):
         value += 1
@@ -292,13 +297,13 @@ def choice(
     shown, picked = dict(options).get(current, current), None
     if width:
         imgui.set_next_item_width(width)
-    opened = imgui.begin_combo(f"##{label}", shown, imgui.ComboFlags_.height_large)
+    opened = said.begin_combo(f"##{label}", shown, imgui.ComboFlags_.height_large)
     if not opened:
         named(label)
         tooltip(hint)
         return None
     for i, (value, text) in enumerate(options):
-        if imgui.selectable(text, value == current)[0]:
+        if said.selectable(text, value == current)[0]:
             picked = value
         named(text)
         tooltip(hints[i] if i < len(hints) else "")
@@ -321,7 +326,7 @@ def swatch(name: str, rgb: tuple[float, float, float], hint: str, size: tuple[fl
 def tick(label: str, on: bool, hint: str) -> tuple[bool, bool]:
     """Returns a box to tick.  (changed, on)"""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(3, 3))
-    changed, on = imgui.checkbox(label, on)
+    changed, on = said.checkbox(label, on)
     imgui.pop_style_var()
     named(label)
     tooltip(hint)
@@ -376,25 +381,3 @@ def segments(name: str, current: str, options: Sequence[tuple[str, str, str]], w
             picked = value
     imgui.pop_style_var()
     return picked
-
-
-def colour_popup(name: str, rgb: tuple[float, float, float]) -> tuple[float, float, float] | None:
-    """Returns a picker in a pop-up `name`; the colour while it changes, else None."""
-    if not imgui.begin_popup(name):
-        return None
-    imgui.set_next_item_width(imgui.get_font_size() * 13)
-    changed, value = imgui.color_picker3(f"##{name}", list(rgb), PICKER_FLAGS)
-    named(name)
-    imgui.end_popup()
-    return (value[0], value[1], value[2]) if changed else None
-
-
-PICKER_FLAGS: Any = (
-    imgui.ColorEditFlags_.picker_hue_wheel
-    | imgui.ColorEditFlags_.no_inputs
-    | imgui.ColorEditFlags_.no_side_preview
-    | imgui.ColorEditFlags_.no_small_preview
-    | imgui.ColorEditFlags_.no_label
-    | imgui.ColorEditFlags_.no_alpha
-    | imgui.ColorEditFlags_.no_tooltip
-)

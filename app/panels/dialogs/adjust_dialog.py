@@ -8,6 +8,7 @@ from immutables import Map
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.knots import STRAIGHT
+from app.language import said
 from app.panels.brush.operations import FORMULAS, Operations, op_hint
 from app.panels.controls import widgets as w
 from engine.brush.settings import Brush
@@ -62,7 +63,7 @@ class AdjustDialog:
         if self._chosen == _FORMULA:
             self._formula = self._controls.formula(self._formula)
         imgui.pop_item_width()
-        imgui.text_disabled("Of what is selected" if desk.selecting.selected else "Of the whole layer")
+        said.text_disabled("Of what is selected" if desk.selecting.selected else "Of the whole layer")
         desk.adjusting.look(desk.post, self._brush(desk), level, _whole_tiles(desk.view.visible(level)))
         row, best = desk.known.active, desk.adjusting.best
         known = row is not None and best is not None and best.layer == row.name

@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.studio.requests import Do
 
@@ -21,10 +22,10 @@ class BakeDialog:
             return False
         fine, flat = desk.asked.bake_loses
         if fine:
-            imgui.text_unformatted(f"Detail finer than level {command.level} is lost in this layer.")
+            said.text_unformatted(f"Detail finer than level {command.level} is lost in this layer.")
         if flat:
-            imgui.text_unformatted("Its paint is flat: how thick it lies stays in its source.")
-        imgui.text_disabled("What it shows stays in its source, every level of it.")
+            said.text_unformatted("Its paint is flat: how thick it lies stays in its source.")
+        said.text_disabled("What it shows stays in its source, every level of it.")
         imgui.spacing()
         if w.default_button("Make independent", "Make pixels of that level", width=width):
             desk.post(Do(command))

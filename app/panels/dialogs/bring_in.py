@@ -10,6 +10,7 @@ from app.desk.desk import Desk
 from app.desk.examples import example_work
 from app.desk.outside import bringing, bringing_layers, doctoring, ground_maps, pictured
 from app.desk.previews import PAINTING, FileRow
+from app.language import said
 from app.panels.controls import widgets as w
 from app.tools.filling_gestures import drop_texture
 from engine.brush.parts import Component
@@ -32,7 +33,7 @@ class BringIn:
         self._picture(desk)
         imgui.same_line()
         imgui.begin_group()
-        imgui.text_unformatted(self._path.name if len(self._path.name) < 40 else f"{self._path.name[:38]}…")
+        said.text_unformatted(self._path.name if len(self._path.name) < 40 else f"{self._path.name[:38]}…")
         imgui.spacing()
         done = self._of_layers(desk) if bringing.is_layered(self._path) else self._ways(desk)
         imgui.end_group()
@@ -94,7 +95,7 @@ class BringIn:
 
     def _of_layers(self, desk: Desk) -> bool:
         wide, ours = imgui.get_font_size() * 15, self._path.suffix.lower() == PAINTING
-        imgui.text_disabled(
+        said.text_disabled(
             "What Inkfall painted comes in exactly, other files as pictures"
             if ours
             else "Text and shapes come in as pictures"
@@ -123,6 +124,6 @@ class BringIn:
         if shown is not None:
             painter.add_image(shown, corner, ImVec2(corner.x + side, corner.y + side))
             return
-        sign = imgui.calc_text_size(icons.IMAGE)
+        sign = said.calc_text_size(icons.IMAGE)
         middle = ImVec2(corner.x + (side - sign.x) / 2, corner.y + (side - sign.y) / 2)
-        painter.add_text(middle, theme.packed(theme.QUIET), icons.IMAGE)
+        said.add_text(painter, middle, theme.packed(theme.QUIET), icons.IMAGE)

@@ -8,6 +8,7 @@ from typing import Protocol
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.arranging.workspaces_dialog import WorkspacesDialog
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
@@ -77,7 +78,7 @@ class Dialogs:
         self._place(desk, dialog)
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
         flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
-        if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
+        if said.begin_popup_modal(f"{dialog.title}###dialog", flags):
             # Escape closes a list or a colour that the dialog has opened first.
             corner, size = imgui.get_window_pos(), imgui.get_window_size()
             self._box = corner.x, corner.y, corner.x + size.x, corner.y + size.y
@@ -161,7 +162,7 @@ def _side(name: str, value: int, hint: str, width: float) -> int:
     """Draws a field for pixels after its name, `width` wide together; gives what stands in it now."""
     left = imgui.get_cursor_pos_x()
     imgui.align_text_to_frame_padding()
-    imgui.text_unformatted(name)
+    said.text_unformatted(name)
     imgui.same_line(left + 3.4 * imgui.get_font_size())
     imgui.set_next_item_width(left + width - imgui.get_cursor_pos_x())
     value = imgui.input_int(f"##{name}", value, 0)[1]
@@ -185,9 +186,9 @@ class Unsaved:
         name, writing = desk.known.path.name if desk.known.path else "This painting", desk.known.writing
         grown = f", growing {writing.grown * 100:.0f} %" if writing.grown < 1.0 else ""
         told = f"is still being saved{grown}." if writing.saving else "has changes that are not saved."
-        imgui.text_unformatted(f"{name} {told}")
+        said.text_unformatted(f"{name} {told}")
         if desk.asked.why:
-            imgui.text_unformatted(desk.asked.why)
+            said.text_unformatted(desk.asked.why)
         imgui.spacing()
         em = imgui.get_font_size()
         if writing.saving:
@@ -216,7 +217,7 @@ class About:
         """Draws it into the present window."""
         em = imgui.get_font_size()
         imgui.push_text_wrap_pos(em * 28)
-        imgui.text_unformatted(
+        said.text_unformatted(
             "Inkfall is a paint program without a bottom: paint is a bandpass pyramid, and textured ink keeps showing "
             "new detail as you zoom in.\n\nAfter “Live Paint: Painting with Procedural Multiscale Textures” "
             "(Perlin & Velho, 1995). MIT licence."

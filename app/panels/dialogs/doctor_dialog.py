@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.desk.desk import Desk
 from app.desk.outside import doctoring
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.studio.textures.texture_requests import DoctorAsk
 from engine.studio.textures.texture_results import DoctorScene, DoctorTrial
@@ -70,10 +71,10 @@ class DoctorDialog:
                 corner, end, colour, imgui.get_style().frame_rounding, 2.5 * desk.scale
             )
         if best:
-            imgui.text_colored(theme.vec(theme.ACCENT), title)
+            said.text_colored(theme.vec(theme.ACCENT), title)
         else:
-            imgui.text_unformatted(title)
-        imgui.text_disabled(below or "…")
+            said.text_unformatted(title)
+        said.text_disabled(below or "…")
         imgui.end_group()
         return clicked
 
@@ -82,9 +83,9 @@ class DoctorDialog:
         corner, line = imgui.get_cursor_pos(), imgui.get_text_line_height_with_spacing()
         imgui.push_text_wrap_pos(corner.x + wide)
         if scene is not None and scene.fault:
-            imgui.text_colored(theme.vec(theme.WARN), scene.fault)
+            said.text_colored(theme.vec(theme.WARN), scene.fault)
         else:
-            imgui.text_wrapped(scene.why if scene is not None and scene.why else "All makers are being tried…")
+            said.text_wrapped(scene.why if scene is not None and scene.why else "All makers are being tried…")
         imgui.pop_text_wrap_pos()
         imgui.set_cursor_pos(ImVec2(corner.x, corner.y + 2 * line))
         imgui.dummy(ImVec2(wide, 0))
@@ -121,7 +122,7 @@ class DoctorDialog:
 
 def _column(desk: Desk) -> float:
     """How far apart columns begin: what is written below a picture, as it comes, moves none of them."""
-    widest = max(imgui.calc_text_size(words).x for words in (_LONGEST, "0.00 apart, 100% copied"))
+    widest = max(said.calc_text_size(words).x for words in (_LONGEST, "0.00 apart, 100% copied"))
     return max(_SIDE * desk.scale, widest) + imgui.get_style().item_spacing.x
 
 

@@ -12,6 +12,7 @@ from app.desk.desk import Desk
 from app.desk.earlier import ReadVersions, Versions
 from app.desk.folders import size_text
 from app.desk.previews import FileRow
+from app.language import said
 from app.panels.controls import widgets as w
 
 _SIDE = 192.0  # of a picture, points
@@ -47,7 +48,7 @@ class EarlierVersions:
         opened = self._cards(desk, card, side)
         imgui.end_child()
         imgui.pop_style_color()
-        imgui.text_disabled(f"Opens as an untitled painting; {self._path.name} stays as it is.")
+        said.text_disabled(f"Opens as an untitled painting; {self._path.name} stays as it is.")
         imgui.spacing()
         rows = self._rows
         hint = "Open the chosen version as an untitled painting"
@@ -69,15 +70,15 @@ class EarlierVersions:
         if self._found is None or not self._rows:
             told = "" if self._found is None else "None yet: what a save replaces is kept from now on."
             room = imgui.get_window_size()
-            size = imgui.calc_text_size(told)
+            size = said.calc_text_size(told)
             imgui.set_cursor_pos(ImVec2((room.x - size.x) / 2, (room.y - size.y) / 2))
-            imgui.text_disabled(told)
+            said.text_disabled(told)
             w.named(told)
             return False
         for number, row in enumerate(self._rows):
             imgui.set_cursor_pos(ImVec2(pad + number * (card.x + pad), pad))
             imgui.push_style_color(imgui.Col_.header_hovered, theme.vec(theme.RAISED, 0.45))
-            if imgui.selectable(f"##{row.name}", False, _FLAGS, card)[0]:
+            if said.selectable(f"##{row.name}", False, _FLAGS, card)[0]:
                 self._chosen = number
                 opened = imgui.is_mouse_double_clicked(0)
             imgui.pop_style_color()
@@ -101,15 +102,15 @@ def _contents(desk: Desk, folder: Path, row: FileRow, place: tuple[int, float]) 
     corner = ImVec2((low.x + high.x - side) / 2, low.y + pad)
     shown = desk.pictures.get(previews.ident(folder, row))
     if shown is None:
-        wide = imgui.calc_text_size(icons.IMAGE)
+        wide = said.calc_text_size(icons.IMAGE)
         at = ImVec2(corner.x + (side - wide.x) / 2, corner.y + (side - wide.y) / 2)
-        painter.add_text(at, theme.packed(theme.QUIET), icons.IMAGE)
+        said.add_text(painter, at, theme.packed(theme.QUIET), icons.IMAGE)
     else:
         painter.add_image(shown, corner, ImVec2(corner.x + side, corner.y + side))
     top = corner.y + side + pad
-    painter.add_text(ImVec2(corner.x, top), theme.packed(theme.TEXT), row.date)
+    said.add_text(painter, ImVec2(corner.x, top), theme.packed(theme.TEXT), row.date)
     ago = "before that" if number else "before the last save"
-    painter.add_text(ImVec2(corner.x, top + line), theme.packed(theme.QUIET), ago)
+    said.add_text(painter, ImVec2(corner.x, top + line), theme.packed(theme.QUIET), ago)
     size = size_text(row.size)
-    right = corner.x + side - imgui.calc_text_size(size).x
-    painter.add_text(ImVec2(right, top + line), theme.packed(theme.QUIET), size)
+    right = corner.x + side - said.calc_text_size(size).x
+    said.add_text(painter, ImVec2(right, top + line), theme.packed(theme.QUIET), size)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.numeric.address import Rect
 from engine.painting.layering.erode_command import (
@@ -55,7 +56,7 @@ class ErodeDialog:
         self._strength = w.slider("Strength", self._strength, (0.0, 1.0), "How much of the ground it takes")[1]
         hint = "How steep loose ground stays, in pixels a pixel; 0 for rock that never slides"
         self._talus = w.slider("Steepest", self._talus, (0.0, _STEEPEST), hint)[1]
-        imgui.text_disabled("What is in view, as fine as you see it")
+        said.text_disabled("What is in view, as fine as you see it")
         imgui.spacing()
         if w.default_button("Erode", "Wear the land down, in one step", width=em * 7):
             level, rect = in_view(desk)

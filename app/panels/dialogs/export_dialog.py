@@ -9,6 +9,7 @@ from app.desk.desk import Desk
 from app.desk.exporting.export_areas import AREAS, export_bytes, export_place
 from app.desk.exporting.export_state import EXPORT_FORMATS, FINER, FRAME_AREA
 from app.desk.folders import size_text
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.checks.picture_sides import PICTURE_SIDE
 
@@ -41,7 +42,7 @@ class ExportDialog:
         fits = min(rect.width, rect.height) > 0 and max(rect.width, rect.height) <= PICTURE_SIDE
         imgui.push_style_color(imgui.Col_.text, theme.vec(theme.QUIET if fits else theme.WARN))
         told = f"{rect.width:,} × {rect.height:,} pixels of level {level}, at most {size_text(export_bytes(desk))}"
-        imgui.text_unformatted(told if fits else f"{rect.width:,} × {rect.height:,} pixels: more than a file can have")
+        said.text_unformatted(told if fits else f"{rect.width:,} × {rect.height:,} pixels: more than a file can have")
         w.named("size")
         imgui.pop_style_color()
         imgui.spacing()
@@ -64,7 +65,7 @@ class ExportDialog:
                 imgui.same_line()
             there = row.of(desk) is not None
             imgui.begin_disabled(not there)
-            pressed = imgui.radio_button(row.title, desk.export.area == name)
+            pressed = said.radio_button(row.title, desk.export.area == name)
             imgui.end_disabled()
             w.named(f"export {name}")
             w.tooltip(row.hint if there else "Nothing is selected")

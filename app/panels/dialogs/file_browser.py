@@ -30,6 +30,7 @@ from app.desk.previews import FileRow
 from app.desk.proofing.proof_work import PROFILES
 from app.desk.sharing.preset_work import BRUSH, BRUSHES, SharePreset, bring_preset
 from app.desk.solids.cube_work import CUBES, bring_cube
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
 from engine.studio.filing.film_requests import MakeFilm
@@ -60,7 +61,7 @@ class SystemDialog:
 
     def draw(self, desk: Desk) -> bool:
         """Draws it into the present window."""
-        imgui.text_unformatted("Choose a file in the other window")
+        said.text_unformatted("Choose a file in the other window")
         if not self._dialog.ready(0):
             return True
         result = self._dialog.result()
@@ -134,7 +135,7 @@ class Browser:
             desk.asked.give_up()
             return False
         if self._fault:
-            imgui.text_colored(theme.vec(theme.WARN), self._fault)
+            said.text_colored(theme.vec(theme.WARN), self._fault)
         return True
 
     def _path_row(self, em: float) -> None:
@@ -146,7 +147,7 @@ class Browser:
         imgui.same_line()
         imgui.align_text_to_frame_padding()
         text = str(self._folder)
-        imgui.text_disabled(text if len(text) < 64 else "…" + text[-62:])
+        said.text_disabled(text if len(text) < 64 else "…" + text[-62:])
 
     def _entries(self, desk: Desk) -> bool:
         """Lists the folder; True when a file was chosen by a double click, both clicks on the same."""

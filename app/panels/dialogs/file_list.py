@@ -12,6 +12,7 @@ from app.desk import previews
 from app.desk.desk import Desk
 from app.desk.folders import size_text
 from app.desk.previews import FileRow
+from app.language import said
 from app.panels.controls import widgets as w
 
 _PICTURE = 34.0  # the side of a small picture, points
@@ -29,7 +30,7 @@ def draw(desk: Desk, folder: Path, rows: Sequence[FileRow], chosen: str) -> File
     while clipper.step():
         for row in rows[clipper.display_start : clipper.display_end]:
             seen.append(row)
-            if imgui.selectable(f"##{row.name}", row.name == chosen, _FLAGS, ImVec2(0, height))[0]:
+            if said.selectable(f"##{row.name}", row.name == chosen, _FLAGS, ImVec2(0, height))[0]:
                 clicked = row
             w.named(row.name)
             w.tooltip("Open this folder" if row.folder else row.name, beside=True)
@@ -50,8 +51,8 @@ def _contents(desk: Desk, folder: Path, row: FileRow, side: float) -> None:
     painter.pop_clip_rect()
     if not row.folder:
         told = size_text(row.size)
-        painter.add_text(ImVec2(size - gap - imgui.calc_text_size(told).x, top), quiet, told)
-        painter.add_text(ImVec2(date, top), quiet, row.date)
+        said.add_text(painter, ImVec2(size - gap - said.calc_text_size(told).x, top), quiet, told)
+        said.add_text(painter, ImVec2(date, top), quiet, row.date)
 
 
 def _picture(desk: Desk, folder: Path, row: FileRow, corner: ImVec2) -> None:
@@ -60,8 +61,8 @@ def _picture(desk: Desk, folder: Path, row: FileRow, corner: ImVec2) -> None:
     shown = None if row.folder else desk.pictures.get(previews.ident(folder, row))
     if shown is None:
         sign = icons.FOLDER if row.folder else icons.IMAGE
-        wide = imgui.calc_text_size(sign)
+        wide = said.calc_text_size(sign)
         at = ImVec2(corner.x + (side - wide.x) / 2, corner.y + (side - wide.y) / 2)
-        painter.add_text(at, theme.packed(theme.TEXT if row.folder else theme.QUIET), sign)
+        said.add_text(painter, at, theme.packed(theme.TEXT if row.folder else theme.QUIET), sign)
     else:
         painter.add_image(shown, corner, ImVec2(corner.x + side, corner.y + side))

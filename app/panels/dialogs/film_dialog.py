@@ -9,6 +9,7 @@ from app import icons, theme
 from app.desk.asked import FILM_SIZES, film_wish, fitted_frame
 from app.desk.desk import Desk
 from app.desk.places import going
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.studio.filing.film_requests import FilmWish, PreviewFilm, StopFilm
 
@@ -52,7 +53,7 @@ class FilmDialog:
         long = f"{length.seconds:.3g} s, {length.frames:,} frames" if length.frames else f"{icons.WAIT} counting…"
         told = fault or long
         imgui.push_text_wrap_pos(em * (_WIDE + 1))
-        imgui.text_colored(theme.vec(theme.WARN if fault else theme.QUIET), told)
+        said.text_colored(theme.vec(theme.WARN if fault else theme.QUIET), told)
         imgui.pop_text_wrap_pos()
         imgui.spacing()
         chosen = w.default_button("Choose file…", "Choose where to write it", enabled=not fault, width=em * 8)
@@ -145,8 +146,8 @@ class FilmBeingMade:
                 desk.guard(desk.asked.close)
             return False
         em = imgui.get_font_size()
-        imgui.text_unformatted(f"So far {part * 100:.0f} % of it is made.")
-        imgui.text_disabled("You can go on painting until it is.")
+        said.text_unformatted(f"So far {part * 100:.0f} % of it is made.")
+        said.text_disabled("You can go on painting until it is.")
         imgui.spacing()
         if w.default_button("Wait", "Close the window as soon as the film is made", width=em * 7):
             desk.asked.after_film = lambda: desk.guard(desk.asked.close)
@@ -163,5 +164,5 @@ class FilmBeingMade:
 def _label(text: str, em: float) -> None:
     left = imgui.get_cursor_pos_x()
     imgui.align_text_to_frame_padding()
-    imgui.text_unformatted(text)
+    said.text_unformatted(text)
     imgui.same_line(left + 3.6 * em)

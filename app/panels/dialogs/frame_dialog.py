@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.numeric.address import Rect
 from engine.painting import commands as c
@@ -35,7 +36,7 @@ class FrameDialog:
             if i % 2:
                 imgui.same_line(11 * em + imgui.get_cursor_start_pos().x)
             imgui.align_text_to_frame_padding()
-            imgui.text_unformatted(name)
+            said.text_unformatted(name)
             imgui.same_line((11 * em if i % 2 else 0) + 3.6 * em + imgui.get_cursor_start_pos().x)
             imgui.set_next_item_width(6.4 * em)
             near = max(-_FARTHEST, min(_FARTHEST, self._values[i]))
@@ -43,7 +44,7 @@ class FrameDialog:
             self._values[i] = value if changed else self._values[i]
             w.named(name)
             w.tooltip(hint)
-        imgui.text_disabled("Paint outside stays; nothing is lost.")
+        said.text_disabled("Paint outside stays; nothing is lost.")
         imgui.spacing()
         x, y, width, height = self._values
         good = 1 <= width <= _LARGEST and 1 <= height <= _LARGEST

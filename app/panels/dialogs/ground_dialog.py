@@ -6,6 +6,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.desk.desk import Desk
 from app.desk.outside.ground_maps import lay_map
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.painting.layering.ground_command import ROCK
 
@@ -32,7 +33,7 @@ class GroundDialog:
         em, found = imgui.get_font_size(), self._found
         imgui.dummy(ImVec2(22 * em, 0))
         imgui.push_text_wrap_pos(22 * em)
-        imgui.text_unformatted(found.told)
+        said.text_unformatted(found.told)
         imgui.pop_text_wrap_pos()
         usual = "; at first true to scale, as the file tells it" if found.scaled else ""
         hint = f"Pixels from its lowest to its highest{usual}"

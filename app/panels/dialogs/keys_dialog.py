@@ -12,6 +12,7 @@ from app.actions.binding import bound_with, change_keys, keys_with, owner_of, ro
 from app.actions.key_maps import KEY_MAPS
 from app.desk.desk import Desk
 from app.desk.keys.key_state import Bound, brush_of, brush_row
+from app.language import said
 from app.panels.controls import widgets as w
 
 _WIDE, _TALL, _KEYS = 46.0, 26.0, 17.0  # ems: of the list, and where keys begin from its right end
@@ -82,13 +83,13 @@ class Keys:
         if not rows:
             return
         if title == _BRUSHES and not self._words:
-            opened = imgui.tree_node_ex(f"{title}##brush keys", imgui.TreeNodeFlags_.no_tree_push_on_open)
+            opened = said.tree_node(f"{title}##brush keys", imgui.TreeNodeFlags_.no_tree_push_on_open)
             w.named("brush keys")
             w.tooltip("Each brush may have keys; a star gives a favourite its digit")
             if not opened:
                 return
         else:
-            imgui.text_disabled(title)
+            said.text_disabled(title)
         for row in rows:
             self._row(desk, row, keys.get(row, ()))
 
@@ -97,7 +98,7 @@ class Keys:
         imgui.push_id(row)
         imgui.set_cursor_pos_x(1.2 * em)
         imgui.align_text_to_frame_padding()
-        imgui.text_unformatted(action.title)
+        said.text_unformatted(action.title)
         w.named(f"row {row}")
         w.tooltip(action.hint)
         imgui.same_line((_WIDE - _KEYS) * em)
@@ -146,7 +147,7 @@ class Keys:
 
     def _head(self, desk: Desk, em: float) -> None:
         imgui.set_next_item_width(16 * em)
-        self._words = imgui.input_text_with_hint("##find", "Find an action, brush or key", self._words)[1]
+        self._words = said.input_text_with_hint("##find", "Find an action, brush or key", self._words)[1]
         w.named("find keys")
         w.tooltip("Words of what it does, or a key")
         imgui.same_line()
@@ -169,10 +170,10 @@ class Keys:
         owner = owner_of(desk.keys.bound, self._pressed) if self._pressed else ""
         imgui.align_text_to_frame_padding()
         if not owner:
-            imgui.text_disabled(self._told or "Click a key, then press another; Escape leaves it as it is")
+            said.text_disabled(self._told or "Click a key, then press another; Escape leaves it as it is")
             w.named("told of keys")
             return
-        imgui.text_colored(theme.vec(theme.WARN), f"{self._pressed} is “{row_action(owner).title}” already")
+        said.text_colored(theme.vec(theme.WARN), f"{self._pressed} is “{row_action(owner).title}” already")
         w.named("conflict")
         imgui.same_line()
         if w.text_button("Take it##key", f"Give it to “{row_action(self._slot.row).title}”"):
@@ -199,9 +200,9 @@ def _alike(one: Bound, other: Bound) -> bool:
 
 def _pointer_rows(em: float) -> None:
     """Draws what drags do, which no list changes."""
-    imgui.text_disabled("With the pointer")
+    said.text_disabled("With the pointer")
     for keys, title in _WITH_POINTER:
         imgui.set_cursor_pos_x(1.2 * em)
-        imgui.text_unformatted(title)
+        said.text_unformatted(title)
         imgui.same_line((_WIDE - _KEYS) * em)
-        imgui.text_colored(theme.vec(theme.ACCENT), keys)
+        said.text_colored(theme.vec(theme.ACCENT), keys)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.studio.requests import Do
 
@@ -21,8 +22,8 @@ class MergeDialog:
         em, level = imgui.get_font_size(), desk.asked.merge_level
         imgui.push_text_wrap_pos(em * 25)
         near = f"{1 << min(level, _MOST)} times or closer" if level > 0 else "beyond its own pixels"
-        imgui.text_unformatted(f"Textures in this paint end here: magnified {near}, they look soft.")
-        imgui.text_disabled("As you see it now, and from farther away, the picture stays as it is.")
+        said.text_unformatted(f"Textures in this paint end here: magnified {near}, they look soft.")
+        said.text_disabled("As you see it now, and from farther away, the picture stays as it is.")
         imgui.pop_text_wrap_pos()
         imgui.spacing()
         if w.default_button("Merge", "Make one layer", width=em * 7):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.studio.results import Overtaken
 
@@ -22,11 +23,11 @@ class OvertakenSave:
         em = imgui.get_font_size()
         imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + em * 33)
         if elsewhere:
-            imgui.text_unformatted(f"{path.name} is open in another window of Inkfall.")
-            imgui.text_disabled("Each window saves over what the other has saved.")
+            said.text_unformatted(f"{path.name} is open in another window of Inkfall.")
+            said.text_disabled("Each window saves over what the other has saved.")
         else:
-            imgui.text_unformatted(f"Another program, or another window, has saved {path.name}.")
-            imgui.text_disabled("Saving here would replace what is there now.")
+            said.text_unformatted(f"Another program, or another window, has saved {path.name}.")
+            said.text_disabled("Saving here would replace what is there now.")
         imgui.pop_text_wrap_pos()
         imgui.spacing()
         if w.default_button("Save as…", "Keep both: save this painting under another name", width=em * 8):

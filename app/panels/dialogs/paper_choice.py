@@ -6,6 +6,7 @@ from imgui_bundle import imgui
 
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
+from app.panels.controls.colour_popup import colour_popup
 from engine.painting import commands as c
 from engine.studio.requests import Do
 
@@ -35,7 +36,7 @@ class PaperChoice:
         if w.swatch("paper", self._paper, "The colour of the paper", (column, imgui.get_frame_height())):
             imgui.open_popup("paper colour")
         imgui.end_disabled()
-        self._paper = w.colour_popup("paper colour", self._paper) or self._paper
+        self._paper = colour_popup("paper colour", self._paper) or self._paper
 
 
 class PaperDialog:

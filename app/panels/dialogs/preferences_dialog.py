@@ -12,6 +12,9 @@ from app.actions.actions import keyed
 from app.desk.desk import Desk
 from app.desk.preferring.preferring import keep_preferences, prefer
 from app.desk.proofing.proof_work import BY_NONE, BY_SYSTEM
+from app.language import said
+from app.language.wide_fonts import has_letters
+from app.language.words import LANGUAGES, known_languages
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
 from engine.keeping.preferences import Preferences, preferences_file
@@ -96,7 +99,7 @@ class PreferencesDialog:
         em, at = imgui.get_font_size(), desk.pointer
         felt = f"Pressed {at.pressed:.2f}, felt {at.pressure:.2f}"
         told = felt if at.pen else "No pen has come yet: a mouse presses 1"
-        imgui.text_disabled(f"Try it here.  {told}")
+        said.text_disabled(f"Try it here.  {told}")
         corner, size = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
         imgui.invisible_button("test area", size)
         w.named("test area")
@@ -117,7 +120,7 @@ class PreferencesDialog:
 
 _OF_PAGES = {
     "pen": ("curve", "constant", "ignore_touch"),
-    "display": ("scale", "font_size", "profile", "proof"),
+    "display": ("scale", "font_size", "profile", "proof", "language"),
     "memory": ("megabytes",),
     "files": ("versions", "gigabytes", "part_of_free"),
 }
@@ -126,7 +129,7 @@ _OF_PAGES = {
 def _display(desk: Desk) -> None:
     now, em, hint = desk.preferred.now, imgui.get_font_size(), "Of panels, buttons and texts, in that of the screen"
     hint += "; larger ones than this window has room for are left out"
-    imgui.text_disabled("Size of all beside the canvas")
+    said.text_disabled("Size of all beside the canvas")
     room = min(desk.view.width / _ROOM[0], desk.view.height / _ROOM[1]) * now.scale / desk.scale  # in which all fits
     fitting = [percent for percent in _PERCENTS if percent <= max(100.0, 100 * room)]
     sizes = [(f"{percent}", f"{percent} %") for percent in fitting]
@@ -134,22 +137,34 @@ def _display(desk: Desk) -> None:
     if picked:
         prefer(desk, scale=int(picked) / 100)
     imgui.spacing()
-    imgui.text_disabled("Size of texts")
+    said.text_disabled("Size of texts")
     points = [(f"{size}", f"{size} points") for size in range(12, 21)]
     picked = w.choice("points", f"{now.font_size:.0f}", points, "Of the font; panels widen as it grows", 9 * em)
     if picked:
         prefer(desk, font_size=float(picked))
-
     imgui.spacing()
-    imgui.text_disabled("Colours of the screen")
+    said.text_disabled("Colours of the screen")
     hint = "By which the window is shown; the painting and what is exported stay sRGB"
     usual = ((BY_SYSTEM, "The system’s profile"), (BY_NONE, "Sent as they are"))
     _profile(desk, "screen profile", now.profile, usual, hint)
     imgui.spacing()
-    imgui.text_disabled("Soft proof")
-    _profile(
-        desk, "proof profile", now.proof, (("", "Nothing"),), keyed("What View > Soft proof imitates", "soft_proof")
-    )
+    said.text_disabled("Soft proof")
+    told = keyed("What View > Soft proof imitates", "soft_proof")
+    _profile(desk, "proof profile", now.proof, (("", "Nothing"),), told)
+    _language(desk)
+
+
+def _language(desk: Desk) -> None:
+    imgui.spacing()
+    said.text_disabled("Language")
+    now = desk.preferred.now
+    languages = (("", "That of the system"), *known_languages().items())
+    picked = w.choice("language", now.language, languages, "Of menus, panels and hints", 14 * imgui.get_font_size())
+    if picked is None:
+        return
+    prefer(desk, language=picked)
+    if not has_letters(picked):
+        desk.say(f"No font for {LANGUAGES[picked]} is found: install Noto Sans CJK", bad=True)
 
 
 def _profile(desk: Desk, name: str, chosen: str, usual: tuple[tuple[str, str], ...], hint: str) -> None:
@@ -176,12 +191,12 @@ def _memory(desk: Desk) -> None:
         )
         if changed:
             prefer(desk, megabytes=round(value))
-    imgui.text_disabled(_LATER)
+    said.text_disabled(_LATER)
 
 
 def _files(desk: Desk) -> None:
     now = desk.preferred.now
-    imgui.text_disabled("What a save replaces is kept")
+    said.text_disabled("What a save replaces is kept")
     hint = "How many earlier versions of each file are kept (File > Earlier versions)"
     changed, count = w.stepper("Versions", now.versions, (1, 100), hint)
     if changed:
@@ -194,8 +209,8 @@ def _files(desk: Desk) -> None:
     changed, value = w.slider("Of the free disk", now.part_of_free * 100, (1.0, 100.0), hint, form="%.0f %%")
     if changed:
         prefer(desk, part_of_free=round(value) / 100)
-    imgui.text_disabled(_LATER)
+    said.text_disabled(_LATER)
     imgui.spacing()
     imgui.push_text_wrap_pos(0)
-    imgui.text_disabled(f"All preferences lie in {preferences_file()}")
+    said.text_disabled(f"All preferences lie in {preferences_file()}")
     imgui.pop_text_wrap_pos()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.painting.commands import Select
 from engine.painting.select_commands import JOIN_OPS, WIDEST_RIM, Named
@@ -107,6 +108,6 @@ class KeptSelections:
                     imgui.pop_id()
                     return False
                 imgui.same_line()
-            imgui.text_unformatted(name)
+            said.text_unformatted(name)
             imgui.pop_id()
         return not w.text_button("Close", "Leave what is selected as it is")

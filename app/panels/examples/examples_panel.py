@@ -13,6 +13,7 @@ from app.actions.action import Action
 from app.desk.desk import Desk
 from app.desk.examples import cutting_work, example_pictures, example_state, example_use, example_work, thumbnails
 from app.desk.examples.example_state import Entry
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.examples.finding_panel import FindingPanel
@@ -148,7 +149,7 @@ class ExamplesPanel(Panel):
             self._thumbnail(desk, entry, wide)
         imgui.pop_style_var()
         if not listed:
-            imgui.text_disabled("No examples here yet: drop a picture on the window")
+            said.text_disabled("No examples here yet: drop a picture on the window")
 
     def _thumbnail(self, desk: Desk, entry: Entry, wide: float) -> None:
         corner, tall = imgui.get_cursor_screen_pos(), wide + _below(desk)
@@ -181,7 +182,7 @@ class ExamplesPanel(Panel):
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
         line, top = imgui.get_frame_height_with_spacing(), imgui.get_cursor_pos_y()
         imgui.align_text_to_frame_padding()
-        imgui.text_unformatted(_short(entry, room.x - 2 * imgui.get_frame_height()) if entry else "Choose an example")
+        said.text_unformatted(_short(entry, room.x - 2 * imgui.get_frame_height()) if entry else "Choose an example")
         if entry is not None and entry.own:
             self._own.buttons(desk, entry)
         imgui.set_cursor_pos_y(top + line)  # with buttons and without
@@ -249,14 +250,14 @@ def _short(entry: Entry, wide: float) -> str:
 
 def _fitting(name: str, wide: float) -> str:
     """Returns a name no wider than that; a long one ends with dots."""
-    while len(name) > 1 and imgui.calc_text_size(name).x > wide:
+    while len(name) > 1 and said.calc_text_size(name).x > wide:
         name = name.removesuffix("…")[:-1].rstrip() + "…"
     return name
 
 
 def _in_middle(text: str, corner: ImVec2, size: tuple[float, float]) -> None:
     """Draws a word where a picture is to come."""
-    half = imgui.calc_text_size(text) / 2
+    half = said.calc_text_size(text) / 2
     at = ImVec2(corner.x + size[0] / 2 - half.x, corner.y + size[1] / 2 - half.y)
     imgui.get_window_draw_list().add_text(at, theme.packed(theme.QUIET), text)
 
@@ -266,5 +267,5 @@ def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float])
     size = imgui.get_font_size() * NAME
     scale = size / imgui.get_font_size()
     name = _fitting(name, (wide + 2) / scale)
-    left = at.x + max(0.0, (wide - imgui.calc_text_size(name).x * scale) / 2)
+    left = at.x + max(0.0, (wide - said.calc_text_size(name).x * scale) / 2)
     imgui.get_window_draw_list().add_text(imgui.get_font(), size, ImVec2(left, at.y), theme.packed(grey), name)

@@ -13,6 +13,7 @@ from app.actions.actions import ACTIONS
 from app.desk.desk import Desk
 from app.desk.examples import cutting_work
 from app.desk.examples.finding_state import FindingState
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.examples.region_picture import draw_picture
@@ -37,7 +38,7 @@ class FindingPanel:
         imgui.same_line()
         imgui.begin_child("finding tools", ImVec2(0, 0))
         imgui.begin_child("finding ways", ImVec2(0, -imgui.get_frame_height_with_spacing()))
-        imgui.text_disabled(_told(finding))
+        said.text_disabled(_told(finding))
         self._tools(desk, finding)
         imgui.end_child()
         self._ends(desk, finding)

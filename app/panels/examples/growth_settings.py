@@ -11,6 +11,7 @@ from app.desk.desk import Desk
 from app.desk.examples import example_work
 from app.desk.examples.example_pictures import SAMPLE
 from app.desk.examples.example_state import Entry
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 
@@ -105,7 +106,7 @@ class GrowthSettings:
         label = 74 * desk.scale
         for choice in _CHOICES:
             imgui.align_text_to_frame_padding()
-            imgui.text_disabled(choice.label)
+            said.text_disabled(choice.label)
             imgui.same_line(label)
             current = str(getattr(now, choice.name))
             options = [(str(value), text, hint) for value, text, hint in choice.options]

@@ -8,6 +8,7 @@ from app import icons
 from app.desk.desk import Desk
 from app.desk.examples import example_state, example_work
 from app.desk.examples.example_state import Entry
+from app.language import said
 from app.panels.controls import widgets as w
 
 
@@ -35,9 +36,9 @@ class OwnExamples:
             self.rename(entry)
         if not imgui.begin_popup_context_item(f"own {entry.name}"):
             return
-        if imgui.selectable("Rename…", False)[0]:
+        if said.selectable("Rename…", False)[0]:
             self.rename(entry)
-        if imgui.selectable("Delete", False)[0]:
+        if said.selectable("Delete", False)[0]:
             self.delete(desk, entry)
         imgui.end_popup()
 
@@ -66,7 +67,7 @@ class OwnExamples:
 
     def _ask_name(self, desk: Desk, entry: Entry) -> None:
         em = imgui.get_font_size()
-        imgui.text_disabled("Rename this example")
+        said.text_disabled("Rename this example")
         if imgui.is_window_appearing():
             imgui.set_keyboard_focus_here()
         imgui.set_next_item_width(em * 14)
@@ -75,7 +76,7 @@ class OwnExamples:
         w.tooltip("What it is called in the palette")
         name = example_state.renamed(self._name, entry, desk.examples.entries)
         if name and name != " ".join(self._name.split()):
-            imgui.text_disabled(f"It will be called “{name}”")
+            said.text_disabled(f"It will be called “{name}”")
         done = w.text_button("Rename", "Call it so from now on", enabled=bool(name), width=em * 6)
         imgui.same_line()
         if done or entered:
@@ -85,8 +86,8 @@ class OwnExamples:
 
     def _ask_delete(self, desk: Desk, entry: Entry) -> None:
         em = imgui.get_font_size()
-        imgui.text_unformatted(f"Delete “{entry.title}”? It is used by {example_work.users(desk, entry)}.")
-        imgui.text_disabled("What is painted with it stays.")
+        said.text_unformatted(f"Delete “{entry.title}”? It is used by {example_work.users(desk, entry)}.")
+        said.text_disabled("What is painted with it stays.")
         done = w.text_button("Delete", "Delete it; this cannot be taken back", width=em * 6)
         imgui.same_line()
         if done:

@@ -16,6 +16,7 @@ from app.actions.actions import ACTIONS
 from app.desk.desk import Desk
 from app.desk.examples import cutting_work, example_work
 from app.desk.examples.region_state import BY_ALPHA, EVERYTHING, INVERTED, RADII, SMOOTHED, RegionState
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.examples.region_picture import draw_picture
@@ -52,7 +53,7 @@ class RegionPanel:
         imgui.begin_child("region tools", ImVec2(0, 0))
         imgui.begin_child("ways", ImVec2(0, -imgui.get_frame_height_with_spacing()))
         entry = state.entry
-        imgui.text_disabled(f"What is grown of “{entry.title}”" if entry is not None else "")
+        said.text_disabled(f"What is grown of “{entry.title}”" if entry is not None else "")
         self._tools(desk, region)
         imgui.end_child()
         own = entry is not None and entry.own
@@ -92,7 +93,7 @@ class RegionPanel:
             if changed:
                 region.radius = round(max(RADII[0], min(RADII[1], radius)), 1)
         if region.way == "colour":
-            imgui.text_disabled("Click on the background")
+            said.text_disabled("Click on the background")
         imgui.spacing()
         room = (imgui.get_content_region_avail().x - gap) / 2
         for i, (label, hint, step) in enumerate(_WHOLE):
@@ -117,4 +118,4 @@ class RegionPanel:
             region.travel(desk.post, 1)
         imgui.same_line(0, 3 * gap)
         imgui.align_text_to_frame_padding()
-        imgui.text_disabled(f"{region.scene.share * 100:.0f}% is grown")
+        said.text_disabled(f"{region.scene.share * 100:.0f}% is grown")

@@ -14,6 +14,7 @@ from app.desk.guides import assistants
 from app.desk.guides.guide_numbers import NUMBERS, GuideNumber
 from app.desk.guides.reshaping import guide_at, places_of
 from app.panels.controls import widgets as w
+from app.panels.controls.colour_popup import colour_popup
 from app.panels.controls.number_field import NumberFields, typed_number
 from app.panels.guides.assistant_marks import GUIDE_COLOURS
 from app.panels.options.options_bar import Options
@@ -92,7 +93,7 @@ class GuideBar:
         shown = self._colour or (GUIDE_COLOURS[0] if guide.colour is None else from_hex(guide.colour))
         if w.swatch("Colour of the guide", shown, "The colour of its lines", (side, side)):
             imgui.open_popup("guide colour")
-        picked = w.colour_popup("guide colour", shown)
+        picked = colour_popup("guide colour", shown)
         if picked is not None:
             self._colour = picked
         if self._colour is not None and not imgui.is_popup_open("guide colour"):

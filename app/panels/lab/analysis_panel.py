@@ -9,6 +9,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.desk.desk import Desk
 from app.desk.outside import pictured
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.panel import Panel
 from engine.numeric.address import Rect
@@ -52,7 +53,7 @@ class AnalysisPanel(Panel):
                 imgui.same_line()
             imgui.begin_group()
             w.picture(self._picture(desk, name), (side, side), hint, name=title)
-            imgui.text_disabled(title)
+            said.text_disabled(title)
             imgui.end_group()
         tall = imgui.get_content_region_avail().y
         if tall > 2 * line:
@@ -82,14 +83,14 @@ class AnalysisPanel(Panel):
     def _facts(self, desk: Desk) -> None:
         imgui.spacing()
         if self._found is None:
-            imgui.text_disabled(f"{icons.WAIT} looking…")
+            said.text_disabled(f"{icons.WAIT} looking…")
             return
         for name, value in sorted(self._found.lines.items(), key=lambda line: _ORDER.index(line[0])):
-            imgui.text_disabled(name)
+            said.text_disabled(name)
             imgui.same_line(6.5 * imgui.get_font_size())
-            imgui.text_unformatted(value)
+            said.text_unformatted(value)
         if not self._found.done:
-            imgui.text_disabled(f"{icons.WAIT} looking…")
+            said.text_disabled(f"{icons.WAIT} looking…")
 
     def _rings(self, desk: Desk, wide: float, tall: float) -> None:
         """Power by frequency, both logarithmic; over it the model's."""

@@ -13,6 +13,7 @@ from app.actions.actions import ACTIONS
 from app.desk.desk import Desk
 from app.desk.lab_state import only_with, with_texture
 from app.desk.outside import pictured
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.lab.lab_settings import LabSettings
 from app.panels.panel import Painting, Panel
@@ -155,15 +156,15 @@ class LabPanel(Panel):
         right = imgui.get_window_width() - imgui.get_style().window_padding.x - 4 * (side + gap) - 8 * desk.scale
         if using:
             text = f"“{using}” follows"
-            wide = imgui.calc_text_size("Keep").x + 2 * imgui.get_style().frame_padding.x
-            imgui.same_line(right - wide - imgui.calc_text_size(text).x - imgui.get_style().item_spacing.x)
+            wide = said.calc_text_size("Keep").x + 2 * imgui.get_style().frame_padding.x
+            imgui.same_line(right - wide - said.calc_text_size(text).x - imgui.get_style().item_spacing.x)
             imgui.align_text_to_frame_padding()
-            imgui.text_disabled(text)
+            said.text_disabled(text)
             imgui.same_line(right - wide)
             if w.text_button("Keep", "Lets it stay as it is; the next use makes another texture"):
                 lab.use(desk.post, "")
         else:
-            imgui.same_line(right - imgui.calc_text_size("Live").x - side - gap)
+            imgui.same_line(right - said.calc_text_size("Live").x - side - gap)
             _, lab.follow = w.tick("Live", lab.follow, _LIVE)
         imgui.same_line(right + 8 * desk.scale)
         signs = (
@@ -248,7 +249,7 @@ def _axes(desk: Desk, corner: ImVec2, side: float, over: bool) -> None:
 
 
 def _invite(corner: ImVec2, side: float, text: str) -> None:
-    size = imgui.calc_text_size(text)
+    size = said.calc_text_size(text)
     at = ImVec2(corner.x + (side - size.x) / 2, corner.y + side * 0.62)
     imgui.get_window_draw_list().add_text(at, theme.packed(theme.TEXT, 0.8), text)
 
@@ -270,8 +271,8 @@ def _label(at: ImVec2, text: str, alpha: float = 1.0) -> None:
     """Draws a light text that is read over anything."""
     painter = imgui.get_window_draw_list()
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        painter.add_text(ImVec2(at.x + dx, at.y + dy), theme.packed((0.0, 0.0, 0.0), 0.6 * alpha), text)
-    painter.add_text(at, theme.packed(theme.TEXT, alpha), text)
+        said.add_text(painter, ImVec2(at.x + dx, at.y + dy), theme.packed((0.0, 0.0, 0.0), 0.6 * alpha), text)
+    said.add_text(painter, at, theme.packed(theme.TEXT, alpha), text)
 
 
 _LIVE = "A texture in use changes with the lab, and the next stroke paints with it"

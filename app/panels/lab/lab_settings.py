@@ -11,6 +11,7 @@ from app import icons
 from app.desk.desk import Desk
 from app.desk.lab_state import PAINTED, SIZES
 from app.desk.outside import pictured
+from app.language import said
 from app.panels.controls import widgets as w
 
 _SIGNS = {"ring": icons.RING, "wedge": icons.WEDGE, "points": icons.GRID, "noise": icons.CLOUD}
@@ -71,7 +72,7 @@ class LabSettings:
         self._field(desk)
 
     def _shapes(self, desk: Desk) -> None:
-        imgui.text_disabled("Begin with")
+        said.text_disabled("Begin with")
         lab = desk.lab
         held = [shape["shape"] for shape in lab.made.shapes]
         rows = lab.scene.shapes if lab.scene is not None else ()
@@ -111,7 +112,7 @@ class LabSettings:
             if row is None:
                 continue
             if several:
-                imgui.text_disabled(_WORDS.get(row.name, row.label))
+                said.text_disabled(_WORDS.get(row.name, row.label))
             imgui.push_id(i)
             for number in row.parameters:
                 if number.name == "strength" and not several:
@@ -126,7 +127,7 @@ class LabSettings:
 
     def _phase(self, desk: Desk) -> None:
         lab = desk.lab
-        imgui.text_disabled("Phases")
+        said.text_disabled("Phases")
         side, gap = imgui.get_frame_height(), 2 * desk.scale
         rows = (*_PHASES, _OWN) if lab.pictured else _PHASES
         picked = w.segments("phase", lab.made.phase, rows, imgui.get_content_region_avail().x - side - gap)
@@ -144,12 +145,12 @@ class LabSettings:
 
     def _part(self, desk: Desk) -> None:
         lab = desk.lab
-        imgui.text_disabled("The texture is")
+        said.text_disabled("The texture is")
         options = [(name, label) for name, label, _ in _PARTS]
         hints = [hint for _, _, hint in _PARTS]
         hint = "Which part of the complex sample becomes the texture"
         gap, side = imgui.get_style().item_spacing.x, imgui.get_frame_height()
-        wide = imgui.get_content_region_avail().x - imgui.calc_text_size("Forward").x - side - 2 * gap
+        wide = imgui.get_content_region_avail().x - said.calc_text_size("Forward").x - side - 2 * gap
         part = w.choice("part", lab.made.part, options, hint, wide, hints)
         if part:
             lab.change(part=part)
@@ -161,7 +162,7 @@ class LabSettings:
 
     def _field(self, desk: Desk) -> None:
         lab = desk.lab
-        imgui.text_disabled("It fills the plane as")
+        said.text_disabled("It fills the plane as")
         held = lab.made.field
         picked = w.segments("field", str(held.get("field", "tile")), _FIELDS)
         if picked:

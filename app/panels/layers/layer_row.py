@@ -9,6 +9,7 @@ from app.actions import actions
 from app.desk.desk import Desk
 from app.desk.stack.many_rows import chosen_rows, post_together
 from app.desk.stack.row_colours import ROW_COLOURS, colour_rows
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.painting import commands as c
 from engine.studio.requests import Do
@@ -108,7 +109,7 @@ def _items(desk: Desk, row: LayerRow) -> bool:
             desk.stack.many = set()
         desk.post(Do(c.SelectLayer(row.name)))
     _colours(desk, row)
-    rename = imgui.menu_item_simple("Rename")
+    rename = said.menu_item("Rename", "", False)[0]
     w.named("Rename")
     w.tooltip("Call it otherwise; a double click does so, too", beside=True)
     for number, group in enumerate(_MORE):
@@ -118,7 +119,7 @@ def _items(desk: Desk, row: LayerRow) -> bool:
             action = actions.ACTIONS[name]
             checked = action.checked is not None and action.checked(desk)
             key = action.keys[0] if action.keys else ""
-            if imgui.menu_item(action.title, key, checked, action.when(desk))[0]:
+            if said.menu_item(action.title, key, checked, action.when(desk))[0]:
                 actions.perform(desk, action)
             w.named(action.title)
             w.tooltip(action.hint, beside=True)

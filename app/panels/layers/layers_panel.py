@@ -9,6 +9,7 @@ from app.actions import actions
 from app.desk.desk import Desk
 from app.desk.stack.many_rows import chosen_rows, dropped_rows, post_together, reach_row, toggle_row
 from app.desk.stack.row_colours import colour_rows
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 from app.panels.layers import layer_row, mask_picture
@@ -58,7 +59,7 @@ class LayersPanel:
         imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(6, 1) * imgui.get_style().font_scale_dpi)
         imgui.set_next_item_width(wide)
         flags = imgui.InputTextFlags_.escape_clears_all
-        _, self._find = imgui.input_text_with_hint("##find layer", "Find", self._find, flags)
+        _, self._find = said.input_text_with_hint("##find layer", "Find", self._find, flags)
         imgui.pop_style_var()
         w.named("find layer")
         w.tooltip("Only layers with this in their names; Escape shows all again", beside=True)
@@ -115,7 +116,7 @@ class LayersPanel:
                 imgui.pop_id()
         if not rows:
             imgui.push_style_color(imgui.Col_.text, theme.vec(theme.QUIET))
-            imgui.text_wrapped(" No layer yet: the first stroke makes one.")
+            said.text_wrapped(" No layer yet: the first stroke makes one.")
             imgui.pop_style_color()
         imgui.end_child()
         imgui.pop_style_var(2)
@@ -190,7 +191,7 @@ class LayersPanel:
         imgui.push_style_color(imgui.Col_.text, theme.vec(quiet))
         imgui.push_style_var(imgui.StyleVar_.selectable_text_align, ImVec2(0.0, 0.5))
         flags = imgui.SelectableFlags_.allow_double_click
-        shown = ended(row.name, imgui.get_content_region_avail().x - imgui.calc_text_size(signs).x)
+        shown = ended(row.name, imgui.get_content_region_avail().x - said.calc_text_size(signs).x)
         imgui.push_style_color(imgui.Col_.header, theme.vec(theme.ACCENT_SOFT, 1.0 if active else _ALSO))
         if imgui.selectable(
             f"{shown}{signs}###name", active or row.name in desk.stack.many, flags, ImVec2(0, imgui.get_frame_height())
@@ -244,7 +245,7 @@ class LayersPanel:
             names = [r.name for r in desk.known.scene.layers] if desk.known.scene else []
             imgui.set_drag_drop_payload_py_id(_PAYLOAD, names.index(row.name))
             others = len(chosen_rows(desk)) - 1 if row.name in desk.stack.many else 0
-            imgui.text_unformatted(f"{row.name} and {others} more" if others else row.name)
+            said.text_unformatted(f"{row.name} and {others} more" if others else row.name)
             imgui.end_drag_drop_source()
         if imgui.begin_drag_drop_target():
             top, bottom = imgui.get_item_rect_min().y, imgui.get_item_rect_max().y

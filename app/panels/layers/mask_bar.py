@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 
@@ -26,11 +27,11 @@ def draw(desk: Desk) -> None:
     if row is None:
         return
     imgui.align_text_to_frame_padding()
-    imgui.text_colored(theme.vec(theme.ACCENT), f"{icons.MASK}  Mask of {ended(row.name, _NAMED * em)}")
+    said.text_colored(theme.vec(theme.ACCENT), f"{icons.MASK}  Mask of {ended(row.name, _NAMED * em)}")
     w.named("mask bar")
     w.tooltip("Brush, fills and gradients go to the mask: white shows, black hides, the eraser hides")
     imgui.same_line(0, em)
-    imgui.text_disabled("white shows, black hides" if row.wrap is None else _ONCE)
+    said.text_disabled("white shows, black hides" if row.wrap is None else _ONCE)
     imgui.same_line(0, em)
     for name, label in (("mask_alone", "Painting" if desk.masks.alone else "Alone"), ("mask_invert", "Invert")):
         if w.text_button(label, actions.tip(name)):

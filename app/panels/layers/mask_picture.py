@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.painting import commands as c
 from engine.painting.layering.mask_member import MASK_OFF, MASK_ON, MaskOp
@@ -32,7 +33,7 @@ def draw(desk: Desk, row: LayerRow) -> None:
     at, to = ImVec2(corner.x + edge, corner.y + edge), ImVec2(end.x - edge, end.y - edge)
     painter, shown = imgui.get_window_draw_list(), desk.pictures.get(picture_name(row.name))
     if shown is None:
-        painter.add_text(at, theme.packed(theme.QUIET), icons.MASK)
+        said.add_text(painter, at, theme.packed(theme.QUIET), icons.MASK)
     else:
         painter.add_image(shown, at, to)
     here = desk.masks.on(row)
@@ -55,7 +56,7 @@ def _more(desk: Desk, row: LayerRow) -> None:
         _activate(desk, row)
     for name in _MORE:
         action = actions.ACTIONS[name]
-        if imgui.menu_item(action.title, "", action.checked is not None and action.checked(desk), action.when(desk))[0]:
+        if said.menu_item(action.title, "", action.checked is not None and action.checked(desk), action.when(desk))[0]:
             actions.perform(desk, action)
         w.named(action.title)
         w.tooltip(actions.tip(name), beside=True)

@@ -11,6 +11,7 @@ from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
 from app.desk.lit.light_state import NO_LAYERS, height_layers, sun_at
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.light.light import BY_ALPHA, BY_IMPASTO, BY_PICTURE
 
@@ -41,7 +42,7 @@ def draw_light(desk: Desk) -> None:
     """Fills the present window."""
     state = desk.light
     imgui.align_text_to_frame_padding()
-    imgui.text("Light")
+    said.text_unformatted("Light")
     imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
     if w.icon_button("close light", icons.CLOSE, actions.keyed("Back to the plain painting", "light")):
         state.on = False

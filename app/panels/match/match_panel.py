@@ -18,6 +18,7 @@ from app.desk.lab_state import with_texture
 from app.desk.match_state import SIZES, SMALLEST, title
 from app.desk.outside import pictured
 from app.desk.outside.doctoring import ask_doctor
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.match.match_settings import MatchSettings
@@ -83,7 +84,7 @@ class MatchingPanel(Panel):
         fault = desk.match.scene.fault if desk.match.scene is not None else ""
         if fault:
             imgui.same_line(0, 14 * desk.scale)
-            imgui.text_colored(theme.vec(theme.WARN), fault if len(fault) < 70 else fault[:68] + "…")
+            said.text_colored(theme.vec(theme.WARN), fault if len(fault) < 70 else fault[:68] + "…")
             w.tooltip(fault)
 
     # --- examples ----------------------------------------------------------------------------------------------------
@@ -106,9 +107,9 @@ class MatchingPanel(Panel):
         else:
             _dashed(corner, end, match.marking == index)
             text = ("Drop an image" if index == 0 else "and another, to mix") if held is None else "…"
-            size = imgui.calc_text_size(text)
+            size = said.calc_text_size(text)
             at = ImVec2((corner.x + end.x - size.x) / 2, (corner.y + end.y - size.y) / 2)
-            painter.add_text(at, theme.packed(theme.QUIET), text)
+            said.add_text(painter, at, theme.packed(theme.QUIET), text)
         self._sources(desk, index, wide, line)
 
     def _sources(self, desk: Desk, index: int, wide: float, side: float) -> None:
@@ -161,9 +162,9 @@ class MatchingPanel(Panel):
         painter = imgui.get_window_draw_list()
         if not ready:
             text = "Texture like the example"
-            size = imgui.calc_text_size(text)
+            size = said.calc_text_size(text)
             at = ImVec2(corner.x + (room.x - size.x) / 2, corner.y + (tall - size.y) / 2)
-            painter.add_text(at, theme.packed(theme.QUIET), text)
+            said.add_text(painter, at, theme.packed(theme.QUIET), text)
         elif scene is not None and scene.done < 1.0:
             end = ImVec2(corner.x + room.x * scene.done, corner.y + tall)
             painter.add_rect_filled(ImVec2(corner.x, end.y - 3), end, theme.packed(theme.ACCENT))

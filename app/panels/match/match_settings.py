@@ -6,6 +6,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.desk.desk import Desk
 from app.desk.match_state import ITERATIONS, LEVELS, ORIENTATIONS
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
 from app.panels.match import subbands
@@ -50,17 +51,17 @@ class MatchSettings:
         match, scene = desk.match, desk.match.scene
         if match.mixing and match.how != "average":
             return
-        imgui.text_disabled("Structure")
+        said.text_disabled("Structure")
         picked = w.segments("structure", match.kept, _STRUCTURES)
         if picked:
             match.keep(picked)
         if match.kept != "none" and scene is not None and scene.copied >= 0.0:
-            imgui.text_disabled(f"{scene.copied:.0%} copied from the example")
+            said.text_disabled(f"{scene.copied:.0%} copied from the example")
             w.tooltip("So many of its pieces of 7 x 7 pixels are the example's own; even faces count, too")
 
     def _mixture(self, desk: Desk) -> None:
         match = desk.match
-        imgui.text_disabled("Mixture of both")
+        said.text_disabled("Mixture of both")
         how = w.segments("how", match.how, _HOWS)
         match.how = how or match.how
         if match.how == "average":
@@ -77,11 +78,11 @@ class MatchSettings:
         match, scene = desk.match, desk.match.scene
         levels = scene.levels if scene is not None and scene.done > 0 else match.levels
         orientations = scene.orientations if scene is not None and scene.done > 0 else match.orientations
-        imgui.text_disabled("Subbands")
+        said.text_disabled("Subbands")
         if match.bands:
             imgui.same_line()
             imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + imgui.get_content_region_avail().x - 44 * desk.scale)
-            if imgui.small_button("Reset"):
+            if said.small_button("Reset"):
                 match.bands = {}
             w.tooltip("All subbands as the example has them")
         subbands.draw(match, levels, orientations)
@@ -98,7 +99,7 @@ class MatchSettings:
         colours = scene.colours if scene is not None else ()
         if not colours:
             return
-        imgui.text_disabled("Axes of colour")
+        said.text_disabled("Axes of colour")
         side, gap = imgui.get_frame_height(), 2 * desk.scale
         wide = (imgui.get_content_region_avail().x - gap * (len(colours) - 1)) / len(colours)
         for k, colour in enumerate(colours[: len(_AXES)]):
@@ -114,7 +115,7 @@ class MatchSettings:
 
     def _pyramid(self, desk: Desk) -> None:
         match = desk.match
-        imgui.text_disabled("Pyramid")
+        said.text_disabled("Pyramid")
         gap = 2 * desk.scale
         wide = (imgui.get_content_region_avail().x - 2 * gap) / 3
         found = []

@@ -8,6 +8,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.desk.match_state import MatchState, Spot
+from app.language import said
 from app.panels.controls import widgets as w
 
 _MOST = 4.0  # gain at the right end; 1 is in the middle
@@ -28,7 +29,7 @@ def draw(match: MatchState, levels: int, orientations: int) -> None:
     for label, hint, spots in rows:
         corner = imgui.get_cursor_screen_pos()
         painter = imgui.get_window_draw_list()
-        painter.add_text(ImVec2(corner.x, corner.y + (tall - em) / 2), theme.packed(theme.QUIET), label)
+        said.add_text(painter, ImVec2(corner.x, corner.y + (tall - em) / 2), theme.packed(theme.QUIET), label)
         wide = (room - gap * (len(spots) - 1)) / len(spots)
         for k, spot in enumerate(spots):
             at = ImVec2(corner.x + _LABEL * em + k * (wide + gap), corner.y)

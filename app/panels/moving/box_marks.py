@@ -13,6 +13,7 @@ from app import theme, trace
 from app.desk.desk import Desk
 from app.desk.moving import held_box
 from app.desk.moving.box import CORNERS, TURN, Box, Point
+from app.language import said
 
 _DARK, _LIGHT = ((0.0, 0.0, 0.0), 0.6), ((1.0, 1.0, 1.0), 0.95)
 _HANDLE, _SIDE, _TURNER = 4.0, 3.2, 4.4  # half as wide as handles are, points
@@ -66,7 +67,7 @@ def _label(painter: imgui.ImDrawList, desk: Desk) -> None:
     label, scale = desk.moving.label, desk.scale
     assert label is not None
     at = ImVec2(desk.pointer.x + _ASIDE[0] * scale, desk.pointer.y + _ASIDE[1] * scale)
-    size, pad, mark = imgui.calc_text_size(label.text), 6 * scale, _MARK * scale
+    size, pad, mark = said.calc_text_size(label.text), 6 * scale, _MARK * scale
     room = 2 * mark + pad
     end = ImVec2(at.x + room + size.x + 2 * pad, at.y + size.y + pad)
     painter.add_rect_filled(at, end, theme.packed((0.0, 0.0, 0.0), 0.72), 4 * scale)
@@ -79,4 +80,4 @@ def _label(painter: imgui.ImDrawList, desk: Desk) -> None:
         painter.add_quad_filled(a, b, c, d, theme.packed(theme.ACCENT))
     else:
         painter.add_quad(a, b, c, d, theme.packed((1.0, 1.0, 1.0), 0.4), 1.2 * scale)
-    painter.add_text(ImVec2(at.x + pad + room, at.y + pad / 2), theme.packed((1.0, 1.0, 1.0)), label.text)
+    said.add_text(painter, ImVec2(at.x + pad + room, at.y + pad / 2), theme.packed((1.0, 1.0, 1.0)), label.text)

@@ -8,6 +8,7 @@ from app import theme, trace
 from app.desk.desk import Desk
 from app.desk.framing.frame_box import frame_box
 from app.desk.moving.box import CORNERS
+from app.language import said
 
 _HALF, _SMALLER = 4.0, 3.2  # half as wide as handles are, points
 _ASIDE = 8.0  # points from the frame to what tells its size
@@ -38,7 +39,7 @@ def _size(desk: Desk) -> None:
     frame, pad = desk.framing.shown(desk.known), 6 * desk.scale
     text = f"{frame.width} × {frame.height}"
     at = ImVec2(desk.pointer.x + 2 * _ASIDE * desk.scale, desk.pointer.y + 2 * _ASIDE * desk.scale)
-    size, painter = imgui.calc_text_size(text), imgui.get_background_draw_list()
+    size, painter = said.calc_text_size(text), imgui.get_background_draw_list()
     end = ImVec2(at.x + size.x + 2 * pad, at.y + size.y + pad)
     painter.add_rect_filled(at, end, theme.packed((0.0, 0.0, 0.0), 0.72), 4 * desk.scale)
-    painter.add_text(ImVec2(at.x + pad, at.y + pad / 2), theme.packed((1.0, 1.0, 1.0)), text)
+    said.add_text(painter, ImVec2(at.x + pad, at.y + pad / 2), theme.packed((1.0, 1.0, 1.0)), text)

@@ -15,6 +15,7 @@ from app.desk.moving.box import spot
 from app.desk.moving.laid_level import LaidLevel
 from app.desk.moving.poses import Spin, exact, respun, scale_text, shifted, spin_of, turn_text
 from app.desk.moving.setting_down import set_down
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.number_field import NumberFields, typed_number
 from app.panels.options.options_bar import Options
@@ -121,7 +122,7 @@ def _apply(desk: Desk, row: LayerRow, typed: tuple[str, Typed], where: tuple[Pos
 def _told(very: bool) -> None:
     """Tells whether the very pixels are shown."""
     imgui.align_text_to_frame_padding()
-    imgui.text_colored(theme.vec(theme.ACCENT if very else theme.QUIET), "Exact" if very else "Sampled")
+    said.text_colored(theme.vec(theme.ACCENT if very else theme.QUIET), "Exact" if very else "Sampled")
     w.named("exact" if very else "sampled")
     w.tooltip(
         "It shows the very pixels that were painted"
@@ -134,7 +135,7 @@ def _told_laid(laid: LaidLevel) -> None:
     """Tells of which level it becomes pixels in its layer."""
     imgui.align_text_to_frame_padding()
     text = f"Pixels of level {laid.level}"
-    imgui.text_colored(theme.vec(theme.WARN if laid.loses else theme.QUIET), text)
+    said.text_colored(theme.vec(theme.WARN if laid.loses else theme.QUIET), text)
     w.named(text)
     w.tooltip(
         "Set down, it becomes paint of its layer: pixels of this level"

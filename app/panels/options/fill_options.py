@@ -11,6 +11,7 @@ from app.desk.desk import Desk
 from app.desk.filling import gradients
 from app.desk.filling.fill_state import WIDEST_SHOWN
 from app.desk.filling.gradients import GRADIENT_SHAPES
+from app.language import said
 from app.panels.controls import widgets as w
 
 _FILLS = (
@@ -80,7 +81,7 @@ def _within(desk: Desk) -> None:
     state.regions = w.choice("which", state.regions, _REGIONS, hint, 5.6 * em, _WHICH) or state.regions
     spaced()
     if state.regions == "line":
-        imgui.text_disabled(_WHICH[-1])
+        said.text_disabled(_WHICH[-1])
         return
     likeness(desk)
     spaced()

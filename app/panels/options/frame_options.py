@@ -6,6 +6,7 @@ from imgui_bundle import imgui
 
 from app.actions import actions
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.numeric.address import Rect
 from engine.painting import commands as c
@@ -29,7 +30,7 @@ def draw_frame_options(desk: Desk) -> None:
     values = [frame.x0, frame.y0, frame.width, frame.height]
     for i, (name, hint) in enumerate(_FIELDS):
         imgui.align_text_to_frame_padding()
-        imgui.text_disabled(name.upper() if i > 1 else name)
+        said.text_disabled(name.upper() if i > 1 else name)
         imgui.same_line(0, 0.3 * em)
         imgui.set_next_item_width(5.2 * em)
         shown = max(-_FARTHEST, min(_FARTHEST, values[i]))

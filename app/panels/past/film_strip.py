@@ -11,6 +11,7 @@ from app import icons
 from app.desk.desk import Desk
 from app.desk.guides import symmetry
 from app.desk.past.past_state import Run, step_name, when
+from app.language import said
 from app.panels.past import step_card
 from app.panels.past.step_card import Look
 from engine.studio.past.past_records import PastStep
@@ -50,7 +51,7 @@ class FilmStrip:
         runs = past.runs
         if not runs:
             imgui.spacing()
-            imgui.text_disabled("Nothing is painted yet, or it is not known how")
+            said.text_disabled("Nothing is painted yet, or it is not known how")
             return
         now = next((n for n, run in enumerate(runs) if run.last.number >= scene.done), len(runs) - 1)
         if moved:

@@ -12,6 +12,8 @@ from app.desk.colours import from_hex
 from app.desk.desk import Desk
 from app.desk.hand import LARGEST, SMALLEST, go_on_with_brush
 from app.desk.past.past_state import PastState, brush_name, when
+from app.language import said
+from app.language.words import say
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 from app.panels.past import step_card
@@ -33,7 +35,7 @@ class HereList:
         found = desk.past.here
         if found is None or not found.strokes:
             imgui.spacing()
-            imgui.text_disabled(_instead(desk.past))
+            said.text_disabled(_instead(desk.past))
             return
         imgui.begin_child("strokes", ImVec2(0, 0))
         tall = step_card.size(desk.scale, 0)[1] + imgui.get_style().item_spacing.y
@@ -43,7 +45,7 @@ class HereList:
             for n in range(clipper.display_start, clipper.display_end):
                 self._row(desk, n, found.strokes[n])
         if found.more:
-            imgui.text_disabled(_LOOKING)
+            said.text_disabled(_LOOKING)
         imgui.end_child()
 
     def _row(self, desk: Desk, n: int, stroke: HereStroke) -> None:
@@ -59,10 +61,10 @@ class HereList:
         imgui.same_line()
         imgui.begin_group()
         name = brush_name(brush, desk.known.presets)
-        imgui.text_unformatted(name)
+        said.text_unformatted(name)
         w.named(f"brush {n}: {name}")
         about = _about(stroke)
-        imgui.text_disabled(ended(about, imgui.get_content_region_avail().x))
+        said.text_disabled(ended(say(about), imgui.get_content_region_avail().x))
         w.tooltip(about)
         if w.text_button(f"Use this brush##{n}", "Take the brush, with its size and colour"):
             use_brush(desk, stroke)

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.language import said
+from app.language.words import say
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 
@@ -58,7 +60,9 @@ def draw(name: str, picture: object | None, lines: tuple[str, ...], look: Look, 
     for n, text in enumerate(lines):
         colour = theme.TEXT if n == 0 else theme.QUIET
         y = edge.y + 0.5 * gap + n * imgui.get_text_line_height()
-        painter.add_text(ImVec2(at.x, round(y)), theme.packed(colour, max(strength, 0.5)), ended(text, WIDE * scale))
+        said.add_text(
+            painter, ImVec2(at.x, round(y)), theme.packed(colour, max(strength, 0.5)), ended(say(text), WIDE * scale)
+        )
     painter.pop_clip_rect()
     return "left" if pressed else "right" if right else ""
 
@@ -74,7 +78,7 @@ def _picture(painter: imgui.ImDrawList, picture: object | None, box: tuple[ImVec
 def _count(painter: imgui.ImDrawList, count: int, edge: ImVec2, strength: float) -> None:
     """Draws how many steps it stands for, in the picture's lower right corner."""
     text = f"{count}"
-    room, scale = imgui.calc_text_size(text), imgui.get_style().font_scale_dpi
+    room, scale = said.calc_text_size(text), imgui.get_style().font_scale_dpi
     corner = ImVec2(edge.x - room.x - 10 * scale, edge.y - room.y - 4 * scale)
     painter.add_rect_filled(corner, edge, theme.packed((0.08,) * 3, 0.8 * strength), imgui.get_style().frame_rounding)
-    painter.add_text(ImVec2(corner.x + 5 * scale, corner.y + 2 * scale), theme.packed(theme.TEXT, strength), text)
+    said.add_text(painter, ImVec2(corner.x + 5 * scale, corner.y + 2 * scale), theme.packed(theme.TEXT, strength), text)

@@ -9,6 +9,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.desk.desk import Desk
 from app.desk.places import going
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.places.chart import Chart, Point
 
@@ -84,8 +85,8 @@ class _Ruler:
                 continue
             told.append(y)
             text = str(level).replace("-", "−")
-            at = ImVec2(self._left - imgui.calc_text_size(text).x - 8 * self._scale, y - self._line / 2)
-            self._painter.add_text(at, theme.packed(theme.TEXT if level == lit else theme.QUIET), text)
+            at = ImVec2(self._left - said.calc_text_size(text).x - 8 * self._scale, y - self._line / 2)
+            said.add_text(self._painter, at, theme.packed(theme.TEXT if level == lit else theme.QUIET), text)
 
     def view(self) -> None:
         """Draws where the view is."""

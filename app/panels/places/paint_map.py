@@ -11,6 +11,7 @@ from app.canvas.standpoint import Standpoint
 from app.canvas.view import place_of_pixel
 from app.desk.desk import Desk
 from app.desk.places import going
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.places.chart import Chart, Point
 from app.panels.places.depth_scale import DepthScale
@@ -84,9 +85,9 @@ def _empty(room: ImVec2, text: str) -> None:
     corner, painter = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     imgui.dummy(room)
     painter.add_rect_filled(corner, ImVec2(corner.x + room.x, corner.y + room.y), theme.packed(theme.FIELD), 4)
-    size = imgui.calc_text_size(text)
+    size = said.calc_text_size(text)
     at = ImVec2(corner.x + (room.x - size.x) / 2, corner.y + (room.y - size.y) / 2)
-    painter.add_text(at, theme.packed(theme.QUIET), text)
+    said.add_text(painter, at, theme.packed(theme.QUIET), text)
 
 
 def _outline(painter: imgui.ImDrawList, chart: Chart, frame: Rect) -> None:

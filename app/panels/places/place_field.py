@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.desk.desk import Desk
 from app.desk.places import going
+from app.language import said
 from app.panels.controls import widgets as w
 
 _NAME = "go to place"
@@ -40,7 +41,7 @@ class PlaceField:
 
 def _fill(desk: Desk, fresh: bool) -> None:
     places = desk.places
-    imgui.text_disabled("Level, x, y of the middle")
+    said.text_disabled("Level, x, y of the middle")
     if fresh:
         imgui.set_keyboard_focus_here()
     imgui.set_next_item_width(20 * imgui.get_font_size())
@@ -59,5 +60,5 @@ def _fill(desk: Desk, fresh: bool) -> None:
             places.typed = None
             imgui.close_current_popup()
     if places.fault:
-        imgui.text_colored(theme.vec(theme.WARN), places.fault)
+        said.text_colored(theme.vec(theme.WARN), places.fault)
         w.named("place fault")

@@ -9,6 +9,7 @@ from app.actions.actions import ACTIONS, perform, tip
 from app.desk.desk import Desk
 from app.desk.examples.following import Following
 from app.desk.places import going
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 from app.panels.panel import Panel
@@ -166,7 +167,7 @@ def _add_card(desk: Desk, size: tuple[float, float], first: bool) -> None:
     action = ACTIONS["bookmark"]
     imgui.push_style_color(imgui.Col_.button, theme.vec(theme.RAISED, 0.45))
     imgui.begin_disabled(not action.when(desk))
-    pressed = imgui.button(f"{icons.ADD}  {'Bookmark this view' if first else 'This view'}", ImVec2(*size))
+    pressed = said.button(f"{icons.ADD}  {'Bookmark this view' if first else 'This view'}", ImVec2(*size))
     imgui.end_disabled()
     imgui.pop_style_color()
     w.named("add bookmark")

@@ -14,6 +14,8 @@ from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import made_text, when_text
 from app.desk.recovery.recovery_work import Discard, ListBin, recover
 from app.faults.log import log_file
+from app.language import said
+from app.language.words import say
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import home_text, shortened
 
@@ -46,7 +48,7 @@ class Cards:
     def draw(self, desk: Desk) -> bool:
         """Draws it into the present window; False when it is done."""
         em = imgui.get_font_size()
-        imgui.text_disabled(self.lead)
+        said.text_disabled(self.lead)
         imgui.spacing()
         opened = self._list(desk, em)
         imgui.spacing()
@@ -105,19 +107,19 @@ class Cards:
 
     def _words(self, entry: Entry, em: float) -> None:
         imgui.push_font(None, imgui.get_style().font_size_base * _NAME)
-        imgui.text_unformatted(shortened(entry.name or "Untitled", em * (_WIDTH - _PICTURE - 4.5)))
+        imgui.text_unformatted(shortened(entry.name or say("Untitled"), em * (_WIDTH - _PICTURE - 4.5)))
         imgui.pop_font()
-        imgui.text_unformatted(f"{when_text(entry.when, time.time())}")
-        imgui.text_disabled(made_text(entry.strokes, entry.seconds))
+        said.text_unformatted(f"{when_text(entry.when, time.time())}")
+        said.text_disabled(made_text(entry.strokes, entry.seconds))
         wrong = [f"Missing: {fault}" for fault in entry.faults]
         told = [*(["Inkfall crashed"] if entry.ident in self._crashed else []), *([_DAMAGED] if wrong else [])]
         if told:
-            imgui.text_colored(theme.vec(theme.WARN), f"{icons.WARNING}  {'; '.join(told)}")
+            said.text_colored(theme.vec(theme.WARN), f"{icons.WARNING}  {'; '.join(told)}")
             w.named(f"fault of {entry.name}")
             crash = [f"{log_file()} tells more of the crash"] if entry.ident in self._crashed else []
             w.tooltip("\n".join([*wrong, *crash]))
         if entry.path is not None:
-            imgui.text_disabled(shortened(f"of {home_text(entry.path)}", em * (_WIDTH - _PICTURE - 4.5)))
+            said.text_disabled(shortened(f"of {home_text(entry.path)}", em * (_WIDTH - _PICTURE - 4.5)))
             w.tooltip(f"{entry.path} stays as it is")
 
     def _buttons(self, desk: Desk, entry: Entry, em: float, tall: float) -> bool:
@@ -125,8 +127,8 @@ class Cards:
         right, down = imgui.get_window_width() - em * _PAD, tall - em * _PAD - imgui.get_frame_height()
         if entry.ident in self._spent:
             told = self._spent[entry.ident]
-            imgui.set_cursor_pos(ImVec2(right - imgui.calc_text_size(told).x, down))
-            imgui.text_unformatted(told)
+            imgui.set_cursor_pos(ImVec2(right - said.calc_text_size(told).x, down))
+            said.text_unformatted(told)
             return False
         names = ["Open", *(["Keep for later"] if self.keeps else []), "Discard"]
         gap = em * 0.45
@@ -167,7 +169,7 @@ class Bin(Cards):
         self._entries = self._entries or desk.recovery.bin or ()
         if not self._entries:
             imgui.dummy(ImVec2(imgui.get_font_size() * _WIDTH, imgui.get_font_size()))
-            imgui.text_unformatted("Looking…" if desk.recovery.bin is None else "Nothing is in the bin.")
+            said.text_unformatted("Looking…" if desk.recovery.bin is None else "Nothing is in the bin.")
         return super().draw(desk)
 
     def _discard(self, desk: Desk, entry: Entry, width: float) -> None:
@@ -187,6 +189,6 @@ def _picture_row(entry: Entry) -> FileRow:
 
 def _sign(corner: ImVec2, em: float) -> None:
     """Draws a sign where no picture is."""
-    wide = imgui.calc_text_size(icons.IMAGE)
+    wide = said.calc_text_size(icons.IMAGE)
     at = ImVec2(corner.x + (_PICTURE * em - wide.x) / 2, corner.y + (_PICTURE * em - wide.y) / 2)
     imgui.get_window_draw_list().add_text(at, theme.packed(theme.QUIET), icons.IMAGE)

@@ -16,6 +16,7 @@ from app.desk.solids.cube_work import ListCubes
 from app.desk.solids.solid_state import OBJECTS
 from app.desk.solids.solid_work import Carve, Rest, pictures_at_rest
 from app.desk.solids.touching_up import ObjectSeen
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.panel import Painting, Panel
 from app.tools.solid_gestures import touch_up
@@ -103,7 +104,7 @@ class SolidPanel(Panel):
             grown = f"{icons.WAIT} growing… {state.growing.done:.0%}" if state.growing is not None else ""
             text = grown or f"{icons.WAIT} carving…"
             at = ImVec2(corner.x + 10 * desk.scale, end.y - 26 * desk.scale)
-            painter.add_text(at, theme.packed(theme.QUIET), text)
+            said.add_text(painter, at, theme.packed(theme.QUIET), text)
 
     def _touches(self, desk: Desk) -> None:
         """Chooses between turning the object and painting on it; takes the paint off."""

@@ -11,6 +11,7 @@ from app import icons, theme
 from app.desk import previews
 from app.desk.desk import Desk
 from app.desk.previews import FileRow
+from app.language import said
 
 PICTURE_EMS = 3.2  # ems: width and height of a picture
 
@@ -31,9 +32,9 @@ def draw_file_picture(desk: Desk, path: Path, corner: ImVec2, size: ImVec2) -> N
         low, most = ImVec2(0.5 - wide, 0.5 - high), ImVec2(0.5 + wide, 0.5 + high)
         painter.add_image_rounded(shown, corner, end, low, most, theme.packed((1.0, 1.0, 1.0)), rounding)
         return
-    sign = imgui.calc_text_size(icons.IMAGE)
+    sign = said.calc_text_size(icons.IMAGE)
     at = ImVec2((corner.x + end.x - sign.x) / 2, (corner.y + end.y - sign.y) / 2)
-    painter.add_text(at, theme.packed(theme.QUIET), icons.IMAGE)
+    said.add_text(painter, at, theme.packed(theme.QUIET), icons.IMAGE)
 
 
 def _row(desk: Desk, path: Path) -> FileRow:

@@ -20,6 +20,7 @@ from app.desk.desk import Desk
 from app.desk.holding.taking import take_preset
 from app.desk.previews import FileRow
 from app.desk.recovery.recovery_work import CARDS
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.recent_menu import draw_recent
 from app.panels.starting.recent_pictures import ask_pictures
@@ -121,14 +122,14 @@ class StartPage:
             self._recent(desk, em)
         imgui.spacing()
         imgui.push_text_wrap_pos(0)
-        imgui.text_disabled("Or just paint: a press beside this page closes it. Help > Start page shows it again.")
+        said.text_disabled("Or just paint: a press beside this page closes it. Help > Start page shows it again.")
         imgui.pop_text_wrap_pos()
         if not desk.asked.shown and not imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
             self._ask(desk)
 
     def _title(self, desk: Desk, em: float) -> None:
         imgui.push_font(None, imgui.get_style().font_size_base * 1.5)
-        imgui.text_unformatted("Welcome to Inkfall")
+        said.text_unformatted("Welcome to Inkfall")
         imgui.pop_font()
         imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
         if w.icon_button("close page", icons.CLOSE, "Close  (Escape)"):
@@ -153,20 +154,20 @@ class StartPage:
             desk.guard(lambda: desk.open(_DEMO / "demo.jsonl", live=True))
 
     def _tries(self, desk: Desk, wide: float, em: float) -> None:
-        imgui.text_disabled("Five things to try")
+        said.text_disabled("Five things to try")
         for i, row in enumerate(TRIES):
             corner = imgui.get_cursor_screen_pos()
-            if imgui.selectable(f"##try {i}", False, 0, ImVec2(wide, 1.55 * em))[0] and ready(desk):
+            if said.selectable(f"##try {i}", False, 0, ImVec2(wide, 1.55 * em))[0] and ready(desk):
                 desk.start.leave()
                 row.do(desk)
             w.named(row.title)
             w.tooltip(row.hint)
             painter, y = imgui.get_window_draw_list(), corner.y + 0.28 * em
-            painter.add_text(ImVec2(corner.x + 0.3 * em, y), theme.packed(theme.TEXT), row.title)
+            said.add_text(painter, ImVec2(corner.x + 0.3 * em, y), theme.packed(theme.TEXT), row.title)
             keys = (*ACTIONS[row.by].keys, "")[0] if row.by in ACTIONS else row.by
-            right = corner.x + wide - imgui.calc_text_size(keys).x - 0.3 * em
-            if right > corner.x + imgui.calc_text_size(row.title).x + em:
-                painter.add_text(ImVec2(right, y), theme.packed(theme.ACCENT), keys)
+            right = corner.x + wide - said.calc_text_size(keys).x - 0.3 * em
+            if right > corner.x + said.calc_text_size(row.title).x + em:
+                said.add_text(painter, ImVec2(right, y), theme.packed(theme.ACCENT), keys)
 
     def _begin(self, desk: Desk) -> None:
         for i, name in enumerate(("new", "open")):
@@ -184,7 +185,7 @@ class StartPage:
 
     def _recent(self, desk: Desk, em: float) -> None:
         imgui.spacing()
-        imgui.text_disabled("Open recent")
+        said.text_disabled("Open recent")
         gap = imgui.get_style().item_spacing.x
         wide = imgui.get_content_region_avail().x
         count = max(1, min(_RECENT, len(desk.opened.paths), int(wide / (12.0 * em))))

@@ -1,0 +1,1 @@
+"""The language of the window: catalogues, imgui's texts in it, and fonts for it."""

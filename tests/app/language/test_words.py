@@ -1,0 +1,67 @@
+"""Texts in another language: found whole, by their form, by their parts; what is the artist's own stays."""
+
+import pytest
+
+from app.language import words
+from app.language.words import Words
+
+CATALOGUE = {
+    "Open": "Öffnen",
+    "Save the painting": "Das Bild sichern",
+    "Opening {name}": "{name} wird geöffnet",
+    "{count} more, {hint}": "noch {count}, {hint}",
+    "Growing {part} %": "Wächst, {part} %",
+    "Size": "Größe",
+    "{name} is “{title}” already": "{name} ist schon „{title}“",
+}
+
+
+@pytest.fixture
+def german(monkeypatch):
+    found = Words("de", CATALOGUE)
+    monkeypatch.setattr(words, "_spoken", found)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Open", "Öffnen"),
+        ("\ue123  Open", "\ue123  Öffnen"),
+        ("   Open", "   Öffnen"),
+        ("Open\nSize", "Öffnen\nGröße"),
+        ("Save the painting  (Ctrl+S)", "Das Bild sichern  (Ctrl+S)"),
+        ("Opening Size", "Size wird geöffnet"),
+        ("3 more, Size", "noch 3, Größe"),
+        ("Growing 55 %", "Wächst, 55 %"),
+        ("Ctrl+S is “Open” already", "Ctrl+S ist schon „Öffnen“"),
+        ("Save the painting.  Open", "Das Bild sichern.  Öffnen"),
+        ("Nothing of this", "Nothing of this"),
+        ("", ""),
+        ("  ", "  "),
+    ],
+)
+def test_a_text_is_found_whole_by_its_form_or_by_its_parts(german, text, told):
+    assert words.say(text) == told
+    assert words.say(text) == told  # and so it is the next time
+
+
+def test_a_control_keeps_its_english_identity(german):
+    assert words.labelled("Open") == "Öffnen###Open"
+    assert words.labelled("Open##file") == "Öffnen###Open##file"
+    assert words.labelled("Open###dialog") == "Öffnen###dialog"
+    assert words.labelled("##Open") == "##Open"
+    assert words.labelled("Nothing") == "Nothing"
+    assert words.meant("Öffnen") == "Open"
+    assert words.meant("other") == "other"
+
+
+def test_nothing_is_spoken_but_english_where_nothing_is_chosen(monkeypatch):
+    monkeypatch.setattr(words, "_spoken", None)
+    assert words.labelled("Open") == "Open"
+    for name in ("LC_ALL", "LC_MESSAGES"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("LANG", "tlh_QO.UTF-8")
+    assert words.speak("") == "en"
+    assert words.say("Open") == "Open"
+    assert words.read_catalogue("tlh") == {}
