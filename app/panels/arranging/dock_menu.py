@@ -6,6 +6,7 @@ from imgui_bundle import imgui
 
 from app.desk.arranging.arrangement import COLUMNS, DOCKS, Arrangement, PanelBox, docked, floated, shown_or_hidden
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 
 
@@ -35,7 +36,7 @@ def draw_dock_menu(desk: Desk, name: str, asked: bool) -> None:
 
 
 def _row(label: str, hint: str) -> bool:
-    pressed = imgui.menu_item(label, "", False)[0]
+    pressed = said.menu_item(label, "", False)[0]
     w.named(label)
     w.tooltip(hint)
     return bool(pressed)
