@@ -21,8 +21,9 @@ from engine.files.images import read_image
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.texture.example.control import MOST_CHANNELS, ORIENTATION, RIM_CHANNEL, Channel, Channels, ordered, rim_of
+from engine.texture.example.control import MOST_CHANNELS, Channel, Channels, ordered, rim_of
 from engine.texture.example.flow import flow_around
+from engine.texture.example.parameters import ORIENTATION, RIM_CHANNEL
 from engine.texture.image import ImageSource
 
 MAP_STROKES_CAP = 4096

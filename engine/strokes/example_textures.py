@@ -175,7 +175,8 @@ def _control(
         picture = replace(around.pictures[sha], name=command.name)
         return _Told(picture, Map({"controls": members.take("controls")}))
     value, folder, place = members.take("maps", None), around.folder, "maps"
-    new = "controls" in members or not all(name in members for name in FIELDS)  # else the definition tells all
+    told = all(name in members for name in FIELDS) and "bundled" not in members  # by the definition itself
+    new = "controls" in members or not told
     if value is None and params is not None and new:
         _regular(params)
         value, folder = read_map_table(params), params.parent

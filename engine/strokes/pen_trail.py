@@ -23,8 +23,9 @@ from engine.numeric.address import Rect
 from engine.numeric.elementary import angles
 from engine.painting.textures import Texture
 from engine.texture.example import tiles
-from engine.texture.example.control import ORIENTATION, Control, stored_channels
+from engine.texture.example.control import Control, stored_channels
 from engine.texture.example.flow import follow
+from engine.texture.example.parameters import ORIENTATION
 from engine.texture.example.tiles import TILE_SIDE
 from engine.texture.grey import grey
 

@@ -22,13 +22,14 @@ from app.desk.examples.finding_state import FindingState
 from app.desk.examples.following import Following
 from app.desk.examples.region_state import RegionState
 from engine.brush.checks import frozen
+from engine.brush.parts import BY_STROKE
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, loads
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
-from engine.texture.example.parameters import Parameters, read_toml, with_values
+from engine.texture.example.parameters import ORIENTATION, Parameters, read_toml, with_values
 
 OWN = "Own"  # the group of the artist's own
 HERE = "In this painting"  # the group of those that only the painting has
@@ -65,6 +66,7 @@ class Entry:
     given: str = ""
     steps: tuple[Map[str, Any], ...] = ()
     base: Path | None = None
+    maps: Map[str, Any] = field(default_factory=Map)  # as its file tells them
 
     @property
     def ident(self) -> str:
@@ -98,7 +100,7 @@ def load_examples(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
     found, faults = [], []
     pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith((MASK, BASE))) if folder.is_dir() else ()
     for path in sorted(pictures):
-        names, parameters, fault = _told(path.with_suffix(PARAMETERS))
+        names, parameters, maps, fault = _told(path.with_suffix(PARAMETERS))
         faults += [f"{path.stem}{PARAMETERS}: {fault}"] if fault else []
         mask = path.with_name(path.stem + MASK)
         there, sha = mask if mask.is_file() else None, ""
@@ -108,7 +110,8 @@ def load_examples(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
             faults.append(str(error))
             there = None
         group, title = names.get("group", "Other"), names.get("title", "")
-        entry = Entry(path.stem, OWN if own else group, path, there, parameters, own, sha, given=title)
+        about = path.stem, OWN if own else group, path, there, parameters, own, sha
+        entry = Entry(*about, given=title, maps=absolute(maps, folder) if own else maps)
         found.append(_painted(entry) if sha else entry)
     return arranged(found), faults
 
@@ -140,17 +143,19 @@ def _painted(entry: Entry) -> Entry:
     return replace(entry, steps=steps, base=base if told.get("base") is True else None) if held else entry
 
 
-def _told(path: Path) -> tuple[dict[str, str], Parameters, str]:
-    """Returns the names (`group`, `title`) and the parameters in a file, and what is wrong with it."""
+def _told(path: Path) -> tuple[Mapping[str, str], Parameters, Map[str, Any], str]:
+    """Returns the names (`group`, `title`), the parameters and the maps in a file, and what is wrong with it."""
     if not path.is_file():
-        return {}, Parameters(), ""
+        return {}, Parameters(), Map(), ""
     try:
         data = path.read_bytes()
         parameters = read_toml(data)
         told = tomllib.loads(data.decode())
-        return {name: told[name] for name in ("group", "title") if name in told}, parameters, ""
+        names: dict[str, str] = {name: told[name] for name in ("group", "title") if name in told}
+        maps: Map[str, Any] = frozen(told.get("maps", {}))
+        return names, parameters, maps, ""
     except (OSError, FieldError) as error:
-        return {}, Parameters(), str(error)
+        return {}, Parameters(), Map(), str(error)
 
 
 def within_reach(brush: Brush, level: int) -> bool:
@@ -187,6 +192,8 @@ class ExampleState:
     seen: str = ""  # and the one whose picture is there
     hung: dict[str, Any] = field(default_factory=dict)  # what thumbnails of those of the painting were asked for
     following: Following = field(default_factory=lambda: Following(_SETTLE))
+    follows: bool = True  # the pen, where the example tells which way it runs
+    charts: dict[str, Map[str, Any]] = field(default_factory=dict)  # by ident, maps other than those of its file
 
     @property
     def entry(self) -> Entry | None:
@@ -253,7 +260,26 @@ class ExampleState:
         """Returns the definition of its texture, as it is painted with or as the settings are."""
         usual = self.used.get(entry.ident, Map())
         told = self.drafts.get(entry.ident, usual) if draft else usual
-        return definition(entry, told)
+        return definition(entry, told, self.maps_of(entry))
+
+    def maps_of(self, entry: Entry) -> Map[str, Any]:
+        """Returns the maps that an example is painted with."""
+        return self.charts.get(entry.ident, entry.maps)
+
+    def runs(self, entry: Entry | None) -> bool:
+        """Tells whether an example tells which way it runs."""
+        if entry is None:
+            return False
+        if entry.here is None:
+            return ORIENTATION in self.maps_of(entry)
+        return any(row[:1] == (ORIENTATION,) for row in entry.here.get("controls", ()))
+
+    def control(self, brush: Brush) -> Map[str, str | float]:
+        """Returns what a brush tells of the chosen example's maps: the way the pen goes, if that is to be followed."""
+        if self.follows and self.runs(self.entry):
+            return brush.control.set(ORIENTATION, BY_STROKE)
+        told = brush.control.get(ORIENTATION)
+        return brush.control.delete(ORIENTATION) if told == BY_STROKE else brush.control
 
     # --- the brush ---------------------------------------------------------------------------------------------------
 
@@ -272,12 +298,24 @@ class ExampleState:
         return replace(brush, example_level=-max(self.size, 0))
 
 
-def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
+def absolute(maps: Mapping[str, Any], folder: Path) -> Map[str, Any]:
+    """Returns maps whose pictures have absolute paths."""
+    found = {}
+    for name, told in maps.items():
+        one = Map({"path": told}) if isinstance(told, str) else told
+        path = one.get("path") if isinstance(one, Map) else None
+        found[name] = one.set("path", str(folder / path)) if isinstance(path, str) else one
+    return Map(found)
+
+
+def definition(entry: Entry, told: Mapping[str, Any], maps: Map[str, Any] = Map()) -> DefineTexture:  # noqa: B008
     """Returns the command that makes an example's texture; `told`: parameters other than its own.
 
     All are told, or a texture of the painting that has others would be taken for this one.
     """
     given: dict[str, Any] = {**asdict(entry.parameters), **told}
+    if maps != (Map() if entry.own else entry.maps):
+        given["maps"] = maps
     if not entry.own:
         return DefineTexture(entry.title, KIND, Map(given | {"bundled": entry.name}))
     given["path"] = str(entry.picture)
@@ -303,7 +341,7 @@ def _is(entry: Entry, told: Mapping[str, Any], state: ExampleState) -> bool:
     """Tells whether a texture of a painting is an example of the palette, as it came or as it is painted with."""
     if told.get("path" if entry.own else "bundled") != (str(entry.picture) if entry.own else entry.name):
         return False
-    return any(defined_by(one, KIND, told) for one in (definition(entry, Map()), state.command(entry)))
+    return any(defined_by(one, KIND, told) for one in (definition(entry, Map(), entry.maps), state.command(entry)))
 
 
 def renamed(text: str, entry: Entry, entries: Iterable[Entry]) -> str:

@@ -5,14 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from immutables import Map
+
 from app.desk import palette
 from app.desk.desk import Desk
 from app.desk.examples import example_state
 from app.desk.examples.example_state import Entry
 from app.desk.hand import go_on_with_brush
+from engine.brush.parts import BY_STROKE
 from engine.brush.settings import Brush
 from engine.painting.commands import Swap
 from engine.studio.requests import Do, GetReady
+from engine.texture.example.parameters import ORIENTATION
 
 _NEAR = 1  # levels: an example that is chosen so near to where the last one was has the same pixels
 
@@ -66,8 +70,19 @@ def follow(desk: Desk) -> None:
     """The brush has the size and depth that are set."""
     state = desk.examples
     if desk.hand.brush.row.grows:
-        members: dict[str, Any] = {**state.levels(), "depth": float(state.depth)}
+        control = state.control(desk.hand.brush)
+        members: dict[str, Any] = {**state.levels(), "depth": float(state.depth), "control": control}
         desk.hand.change(**members)
+
+
+def set_following(desk: Desk, on: bool) -> None:
+    """The texture runs the way each stroke goes, or as the example does; one that did not tell which way it runs does
+    so rightwards."""
+    state, entry = desk.examples, desk.examples.entry
+    state.follows = on
+    if on and entry is not None and entry.here is None and not state.runs(entry):
+        state.charts[entry.ident] = state.maps_of(entry).set(ORIENTATION, Map({"strokes": ()}))
+    take_example(desk)
 
 
 def adopt(desk: Desk) -> None:
@@ -81,6 +96,7 @@ def adopt(desk: Desk) -> None:
     entry = next(found, None) if told is not None else None
     state.chosen = entry.ident if entry is not None else ""
     state.size, state.depth = -brush.example_detail, round(brush.depth or 0)
+    state.follows = brush.control.get(ORIENTATION) == BY_STROKE or not state.runs(entry)
     fit_size(desk)
 
 

@@ -19,6 +19,7 @@ _SIZES = (
     ("1", "2", "Twice as large"),
     ("2", "4", "Four times as large"),
 )
+_FOLLOW = "The texture runs the way each stroke goes: for thatch, fur, hair. Stroke over it again to comb it"
 _DEPTH = (
     "At the same depth the same texture joins, another takes its place. A greater depth lies over what is there, a "
     "smaller one goes under it"
@@ -45,6 +46,9 @@ def draw(desk: Desk) -> None:
     if changed:
         state.depth = depth
         example_use.follow(desk)
+    changed, on = w.tick("Follow the pen", state.follows and state.runs(state.entry), _FOLLOW)
+    if changed:
+        example_use.set_following(desk, on)
 
 
 def draw_eraser(desk: Desk) -> None:

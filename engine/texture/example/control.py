@@ -16,9 +16,9 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.numeric.elementary import atan2
+from engine.texture.example.parameters import ORIENTATION, RIM_CHANNEL
 from engine.texture.example.rim_distance import rim_distance
 
-ORIENTATION, RIM_CHANNEL = "orientation", "rim"
 MOST_CHANNELS = 4
 PART = 8 * 49 * 4  # energy of one step, of 255, of a channel that weighs as much as colours do
 _MOST_WEIGHT = 1 << 14  # of all channels together: so energies stay within 32 bits

@@ -13,8 +13,6 @@ from engine.numeric.halving import halved_region
 from engine.texture.example import exemplar as exemplars
 from engine.texture.example.control import (
     NO_WEIGHTS,
-    ORIENTATION,
-    RIM_CHANNEL,
     Channels,
     Control,
     counts,
@@ -24,7 +22,7 @@ from engine.texture.example.control import (
     stored_channels,
 )
 from engine.texture.example.exemplar import PAD, Exemplar, by_way
-from engine.texture.example.parameters import Parameters
+from engine.texture.example.parameters import ORIENTATION, RIM_CHANNEL, Parameters
 from engine.texture.example.turning import Copies, copies_of, mask_rect, turned_copies
 
 

@@ -15,6 +15,7 @@ METHODS = ("correction", "scanline")
 CHANNELS = ("colour", "luminance")
 BOUNDARIES = ("auto", "yes", "no")
 MOST_LEVELS = 8
+ORIENTATION, RIM_CHANNEL = "orientation", "rim"  # control channels with a meaning of their own
 
 
 @dataclass(frozen=True, slots=True)
