@@ -64,6 +64,8 @@ class TintedInk(Ink):
     def mean_under(self, tints: np.ndarray) -> np.ndarray:
         """Returns the colour that the ink has on the whole under tints, float64 (m, 3 + parts): float64 (m, 3)."""
         under = tints[:, :3]
+        if not self.parts:
+            return under
         out = under.copy()
         for part, factor in zip(self.parts, tints[:, 3:].T, strict=True):
             out += factor[:, None] * (part.shift.low + part.shift.slope * under)

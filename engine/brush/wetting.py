@@ -19,10 +19,11 @@ from engine.brush.dynamics import most_of
 from engine.brush.mask import StrokeMask
 from engine.brush.print_form import Print
 from engine.brush.settings import Brush
-from engine.brush.soaking import CARRIED, HALF, SIDE, TIP, Manner, Water, fill, soak, squares_met
+from engine.brush.soaking import CARRIED, TIP, soak
 from engine.brush.tinted_ink import TintedInk
 from engine.brush.tip import ways_of
 from engine.brush.wet import Wet
+from engine.brush.wet_squares import HALF, SIDE, Manner, Water, fill, squares_met
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.elementary import log2
 from engine.numeric.pigment import LIGHT, PIGMENT, paints

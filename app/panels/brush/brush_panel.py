@@ -24,6 +24,7 @@ from app.panels.brush.size_row import draw_radius, draw_steadying
 from app.panels.brush.symmetry_section import SymmetrySection
 from app.panels.brush.texturing import Texturing
 from app.panels.brush.thickness_section import draw_thickness
+from app.panels.brush.wet_section import WetSection
 from app.panels.controls import widgets as w
 from app.panels.controls.grips import note_grip
 from app.panels.options.fill_options import FILL_TOOLS
@@ -51,7 +52,7 @@ class BrushPanel:
     def __init__(self) -> None:
         self._texturing, self._dynamics = Texturing(), DynamicsSection()
         self._operations, self._saving, self._list = Operations(), SaveBrush(), BrushList()
-        self._symmetry = SymmetrySection()
+        self._symmetry, self._wet = SymmetrySection(), WetSection()
         self._sections: dict[str, Callable[[Desk], None]] = {
             "eraser": example_section.draw_eraser,
             "operations": self._operations.draw,
@@ -109,6 +110,7 @@ class BrushPanel:
             self._symmetry.draw(desk)
         if w.section("Tip shape", "Slender, turned with the stroke or the pen, strewn", opened=False):
             tip_section.draw(desk)
+        self._wet.draw(desk)
         if w.section("Pen and motion", "What pressure, tilt, speed, chance change", opened=False):
             self._dynamics.draw(desk)
 

@@ -64,8 +64,9 @@ def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
         smaller = min(_SMALLER, max(0, round(math.log2(brush.radius / radius))))  # its texture, as the stroke is
         detail = min(brush.example_detail + smaller, MOST_DETAIL)
         return [replace(wave, brush=replace(wave.brush, example_detail=detail))]
-    bars, colours = [], brush.row.ground == "colours"
-    if not brush.row.ground:
+    wet = brush.wet is not None and brush.row.lays_ink
+    bars, colours = [], wet or brush.row.ground == "colours"
+    if not brush.row.ground and not wet:
         return [wave]
     for k in range(_BARS):
         across = width * (0.1 + 0.8 * k / (_BARS - 1))
