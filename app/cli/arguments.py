@@ -138,3 +138,11 @@ def size(text: str) -> tuple[int, int]:
     if not (1 <= width <= SIDE and 1 <= height <= SIDE):
         raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected WxH, each from 1 to {SIDE} pixels")
     return width, height
+
+
+def read_place(text: str) -> tuple[int, int]:
+    """`X,Y`: integers of any size."""
+    if not re.fullmatch(r"[+-]?[0-9]{1,2000},[+-]?[0-9]{1,2000}", text):
+        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected X,Y: two integers")
+    x, y = text.split(",")
+    return int(x), int(y)

@@ -5,11 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from app.cli.arguments import Parser, seed, size
+from app.cli.arguments import Parser, read_place, seed, size
 from app.cli.outcome import DONE, Refused
 from app.cli.output import checked_output
 from app.cli.progress import Progress
@@ -80,6 +79,10 @@ def run(options: argparse.Namespace) -> int:
         from app.cli.refining import learn_command
 
         return learn_command.run(options.words)
+    if name == "expression":
+        from app.cli.written import expression_command
+
+        return expression_command.run(options.words)
     if name in MATCHED:
         from app.cli import match_command, solid_command
 
@@ -99,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _known() -> str:
-    return ", ".join((*MAKERS, *MATCHED, "learn", "example", "doctor", "mask"))
+    return ", ".join((*MAKERS, *MATCHED, "learn", "expression", "example", "doctor", "mask"))
 
 
 def _parser(name: str) -> Parser:
@@ -138,14 +141,6 @@ _PHASES = {
     "sparse": "",
     "impulse": "window: of the window in the middle; zero; random (default window)",
 }
-
-
-def read_place(text: str) -> tuple[int, int]:
-    """`X,Y`: integers of any size."""
-    if not re.fullmatch(r"[+-]?[0-9]{1,2000},[+-]?[0-9]{1,2000}", text):
-        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected X,Y: two integers")
-    x, y = text.split(",")
-    return int(x), int(y)
 
 
 def _defined(name: str, given: argparse.Namespace) -> Texture:

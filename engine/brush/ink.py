@@ -24,6 +24,7 @@ from engine.brush.parts import Component, Surface, Tip
 from engine.brush.settings import Brush
 from engine.brush.sway import Hat, Swayed
 from engine.numeric.address import Rect, TileKey
+from engine.texture.expression.written_ink import Expression
 from engine.texture.gradient import Gradient
 from engine.texture.image import Image, ImageSource
 from engine.texture.planes import sort_key
@@ -167,7 +168,7 @@ def _mixed(own: Instance, component: Component, under: np.ndarray) -> tuple[np.n
     rgb = np.array(component.rgb)
     if _cover(own) is not None:  # premultiplied, 0..1: its own alpha hides the brush's colour
         return component.amount * rgb, np.zeros(3)
-    if isinstance(own, Image | Gradient):
+    if isinstance(own, Image | Gradient) or (isinstance(own, Expression) and own.shows_colours):
         return component.amount * rgb, -component.amount * under
     if getattr(own, "coloured", False):  # its own colours, s X, in place of the brush's
         return component.amount * rgb / 2.0, component.amount * (rgb / 2.0 - under)

@@ -104,7 +104,7 @@ class Curve(NamedTuple):
         return self.put(found, tuple((float(a), float(b)) for a, b in knots)) if rising else None
 
 
-class Words(NamedTuple):
+class Named(NamedTuple):
     """What one line of the file names."""
 
     put: Callable[[Preferences, str], Preferences]
@@ -118,7 +118,7 @@ class Words(NamedTuple):
 
 _A_PROFILE = f"the path of an ICC profile, at most {_MOST_LETTERS} letters"
 MEGABYTES = Row(0, 1e6, True, lambda told, number: replace(told, megabytes=int(number)))
-SETTINGS: dict[tuple[str, str], Row | Switch | Curve | Words] = {
+SETTINGS: dict[tuple[str, str], Row | Switch | Curve | Named] = {
     ("kept", "versions"): Row(1, 100, True, lambda told, number: replace(told, versions=int(number))),
     ("kept", "gigabytes"): Row(0.0, 1e6, False, lambda told, number: replace(told, gigabytes=number)),
     ("kept", "part_of_free"): Row(0.0, 1.0, False, lambda told, number: replace(told, part_of_free=number)),
@@ -128,11 +128,11 @@ SETTINGS: dict[tuple[str, str], Row | Switch | Curve | Words] = {
     ("pen", "ignore_touch"): Switch(lambda told, on: replace(told, ignore_touch=on)),
     ("display", "scale"): Row(0.75, 3.0, False, lambda told, number: replace(told, scale=number)),
     ("display", "font_size"): Row(12.0, 20.0, False, lambda told, number: replace(told, font_size=number)),
-    ("display", "profile"): Words(
+    ("display", "profile"): Named(
         lambda told, path: replace(told, profile=path or "none"), f'"screen", "none" or {_A_PROFILE}'
     ),
-    ("display", "proof"): Words(lambda told, path: replace(told, proof=path), f'"" or {_A_PROFILE}'),
-    ("display", "language"): Words(
+    ("display", "proof"): Named(lambda told, path: replace(told, proof=path), f'"" or {_A_PROFILE}'),
+    ("display", "language"): Named(
         lambda told, code: replace(told, language=code), '"" for that of the system, or such as "de"'
     ),
 }

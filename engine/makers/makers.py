@@ -28,7 +28,7 @@ from engine.painting.textures import Around, Texture
 from engine.painting.times import untimed
 from engine.strokes import example_textures
 from engine.texture.image import ImageSource
-from engine.texture.table import GRADIENT, KINDS
+from engine.texture.table import DEFINED, KINDS
 
 NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one is repeated
 
@@ -129,7 +129,7 @@ def _the_same(members: Fields, source: ImageSource) -> ImageSource:
 _Maker = Callable[[DefineTexture, Group, Around], Texture]
 MAKERS: dict[str, _Maker] = {
     **{name: _procedural for name, row in KINDS.items() if not row.pictured},
-    GRADIENT: _procedural,
+    **dict.fromkeys(DEFINED, _procedural),
     "image": _image,
     LEARN: _learnt,
     "canvas": _canvas,

@@ -139,19 +139,22 @@ class Recording:
         yield from lines
 
 
+_MAKERS_OF_2 = ("gradient", "expression", "learn")
+
+
 def version_of(command: Command) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
     steps = isinstance(command, DefineTexture) and any(
         name in command.arguments for name in ("region", "controls", "maps")
     )
-    region = steps or (isinstance(command, DefineTexture) and command.maker == "gradient")
+    region = steps or (isinstance(command, DefineTexture) and command.maker in _MAKERS_OF_2)
     if isinstance(command, LayerCommand):
         return layer_version(command)
     newer = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto) or _lasts(command.brush))
     newer |= isinstance(command, Stroke) and (command.brush.height is not None or command.brush.impasto != 0.0)
     newer |= isinstance(command, Stroke) and bool(command.brush.control)
     newer |= isinstance(command, Stroke) and (feels(command.brush) or command.points.shape[1] > ALWAYS)
-    newer |= isinstance(command, DefineTexture) and (command.maker == "learn" or _newer(command.arguments))
+    newer |= isinstance(command, DefineTexture) and _newer(command.arguments)
     return 2 if region or newer or isinstance(command, _OF_VERSION_2) else 1
 
 

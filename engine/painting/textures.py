@@ -14,9 +14,10 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.arithmetic import LIBRARY
 from engine.painting.commands import DefineTexture
 from engine.painting.layering.touch_command import NO_TOUCHES, Touches
+from engine.texture.expression.told import anew
 from engine.texture.image import ImageSource
 from engine.texture.record import Instance
-from engine.texture.table import KINDS, instance
+from engine.texture.table import EXPRESSION, KINDS, instance
 
 LEARNT_SHA = "maps_sha"  # the member of a definition by which what was learnt is known again
 
@@ -51,6 +52,8 @@ class Texture:
         """Makes the instance that a brush's ink names, with the parameters that it gives anew, a base level and a
         seed.  TextureError names what is wrong."""
         given = {**self.parameters, **parameters}
+        if self.kind == EXPRESSION:
+            given = anew(self.parameters, parameters, level)
         return instance(self.kind, given, level, seed, self.source, self.arithmetic, self.maps)
 
 

@@ -27,6 +27,7 @@ from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.functions import functions
 from engine.numeric.wave import UNIT
+from engine.texture.expression.written_ink import Expression
 from engine.texture.gradient import Gradient
 from engine.texture.image import Cover, Image, picture_pyramid
 from engine.texture.learnt.inks import LearntImage, LearntMatched
@@ -100,6 +101,11 @@ def _gradient(made: Gradient, level: int, rect: Rect | None = None) -> Bound:
     finer = max(-1000, min(1000, made.level - max(level, made.base)))
     most = min(1.0, math.ldexp(_AWAY * steepest / math.sqrt(x * x + y * y), finer))
     return Bound(most, most, most)
+
+
+@bound.register
+def _written(made: Expression, level: int, rect: Rect | None = None) -> Bound | None:
+    return None  # whatever somebody wrote
 
 
 @bound.register(Image)

@@ -14,6 +14,7 @@ from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_within
 from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
+from engine.texture.expression.told import expression, expression_of_key
 from engine.texture.gradient import gradient, gradient_of_key
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.learnt.inks import REFINABLE, learnt
@@ -135,8 +136,13 @@ _COVERS: dict[str, Kind] = {
     "matched-cover": Kind("matched-cover", _SAMPLE, MatchedCover, "", pictured=True, endless=True),
     "series-cover": Kind("series-cover", _SERIES, series_cover, "", pictured=True, endless=True),
 }
-# Not for the brush to name, either, but for definitions: its parameters are no numbers.
-GRADIENT, GRADIENT_COVER = "gradient", "gradient-cover"
+# Not for the brush to name, either, but for definitions: their parameters are no numbers.
+GRADIENT, EXPRESSION = "gradient", "expression"
+DEFINED: dict[str, Callable[..., Instance]] = {GRADIENT: gradient, EXPRESSION: expression}
+_OF_KEYS: dict[str, Callable[..., Instance]] = {
+    **dict.fromkeys((GRADIENT, "gradient-cover"), gradient_of_key),
+    **dict.fromkeys((EXPRESSION, "expression-cover"), expression_of_key),
+}
 KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
 
 
@@ -155,9 +161,9 @@ def instance(
     whose parameters name none; `source` is the picture of an image or the sample of a spectral texture, its width the
     default period; `arithmetic`: that of the painting.  TextureError names the field.
     """
-    if kind == GRADIENT:
+    if isinstance(kind, str) and kind in DEFINED:
         _check_level(level)
-        return _told(gradient, parameters, level)
+        return _told(DEFINED[kind], parameters, level)
     row = _row(kind)
     _check_level(level)
     values = []
@@ -226,9 +232,9 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
         return _placed_from_key(key, images)
     if key[0] == LEARNT:
         return _learnt_from_key(key, images)
-    if key[0] in (GRADIENT, GRADIENT_COVER):
+    if isinstance(key[0], str) and key[0] in _OF_KEYS:
         _check_level(key[1])
-        return _told(gradient_of_key, key)
+        return _told(_OF_KEYS[key[0]], key)
     kind, arithmetic, renew = kind_of_key(key[0]) if isinstance(key[0], str) else (key[0], LIBRARY, True)
     row = (_COVERS.get(kind) if isinstance(kind, str) else None) or _row(kind)
     if not (renew or row.endless):

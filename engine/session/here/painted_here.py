@@ -38,7 +38,7 @@ from engine.session.here.unfolded import Bounds, Candidate, Entry, Unfolding
 from engine.session.picturing import picture_paint
 from engine.session.steps import LoggedStep, Steps
 from engine.strokes.coverage_at import Covering, Seeds, hides, lays, plain_over, plainly
-from engine.texture.table import GRADIENT, KINDS
+from engine.texture.table import DEFINED, KINDS
 
 _PARTS = 4  # levels finer than the pixel at which it is looked at in parts
 _KEPT = 64  # sets of definitions whose textures are kept
@@ -275,7 +275,7 @@ class PaintedHere:
             for name, command in definitions.items():
                 row, plain = KINDS.get(command.maker), untimed(command)
                 same = pictures.get(command.arguments.get("sha", ""))
-                if command.maker == GRADIENT or (row is not None and not row.pictured):
+                if command.maker in DEFINED or (row is not None and not row.pictured):
                     made[name] = Texture(command.maker, plain.arguments)
                 elif same is not None:
                     made[name] = replace(same, kind=kind_of(plain), parameters=plain.arguments)

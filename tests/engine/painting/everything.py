@@ -36,6 +36,12 @@ from engine.texture.table import KINDS
 FRAME = [0, 0, 96, 72]
 PLACES = ((-1, Rect.at(-8, -8, 64, 52)), (0, Rect.at(-16, -16, 128, 104)), (2, Rect.at(100, 90, 96, 96)))
 DEEP = (14, Rect.at((40 << 14) + 77, (30 << 14) + 5, 64, 64))
+WRITTEN = "deep = slider(0.6, 0, 1)\nfbm(x*2, y*2, 5)*deep + cells_edge(x*3, y*3)*white(x*7, y*7)*log(2 + sin(x*9))"
+WRITTEN_COLOURS = (
+    "a = warp(ridged(x, y, 4), noise(x, y)**1.3, exp(-abs(tan(y))))\n"
+    "b = rotate(hexagons(x*3, y*3), atan2(1, 3)*57)\n"
+    "over(fade(ramp(a, #000000, #c06020, #ffe0a0), b), ramp(bricks_random(x*2, y*4), #203040c0, #f0f0f080))"
+)
 LINE = [[8, 12, 0.3, 0, 0, 0], [40, 30, 0.9, 10, 5, 0.1], [88, 60, 0.6, 20, 0, 0.25]]
 BACK = [[88, 10, 1, 0, 0, 0], [50, 40, 0.7, 0, 0, 0.1], [10, 64, 0.2, 0, 0, 0.3]]
 WAVES = {"period": 13.7, "angle": 33.3, "phase": 0.21}
@@ -95,6 +101,8 @@ MADE: dict[str, dict[str, Any]] = {
     "impulse-random": texture("impulse", path="colour.png", phase="random", field="tile"),
     "solid": texture("solid", material="agate", normal=[1, -1, 2], depth=0.4, unit=24, seed=3, values={"bands": 9}),
     "gradient": texture("gradient", ramp=RAMP, **{"from": [3, 9], "to": [71, 50]}),
+    "expression": texture("expression", text=WRITTEN, period=31, values={"deep": 0.4}),
+    "expression-colours": texture("expression", text=WRITTEN_COLOURS, seed=3),
     "gradient-radial": texture("gradient", kind="radial", ramp=RAMP, **{"from": [41, 33], "to": [77, 50]}),
     "gradient-angular": texture("gradient", kind="angular", level=1, ramp=RAMP, **{"from": [80, 61], "to": [77, 20]}),
     "match": texture("match", path="colour.png", iterations=2, levels=3),

@@ -1,0 +1,1 @@
+"""The commands about textures that users write."""

@@ -1,0 +1,298 @@
+"""Signs and functions of numbers, and what is exact of their means."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from engine.texture.expression.codes import Code
+from engine.texture.expression.weaving import JUMP_SIDE, POINT_SIDE, Env, Rule, Value, Weaver
+from engine.texture.expression.written import Term
+
+_Pair = tuple[int, int]  # a node, and how many samples along a pixel its mean takes
+Work = Callable[[Weaver, int, int], _Pair]
+
+
+def zipped(weaver: Weaver, term: Term, env: Env, work: Work) -> Value:
+    """Returns what a function of two numbers makes of two values, channel by channel; alpha is the larger one."""
+    a, b = (weaver.value(part, env) for part in term.parts[:2])
+    side = max(a.side, b.side)
+    if not (a.coloured or b.coloured):
+        node, more = work(weaver, a.nodes[0], b.nodes[0])
+        return Value((node,), max(side, more if env.mean else 1))
+    left, right = (one.nodes[:3] if one.coloured else one.nodes * 3 for one in (a, b))
+    made = [work(weaver, *pair) for pair in zip(left, right, strict=True)]
+    alphas = [one.nodes[3] for one in (a, b) if one.coloured]
+    alpha = alphas[0] if len(alphas) == 1 else weaver.graph.most(*alphas)
+    if env.mean:
+        side = max(side, *(more for _, more in made))
+    return Value((*(node for node, _ in made), alpha), side)
+
+
+def _add(weaver: Weaver, a: int, b: int) -> _Pair:
+    return weaver.graph.add(a, b), 1
+
+
+def _subtract(weaver: Weaver, a: int, b: int) -> _Pair:
+    return weaver.graph.sub(a, b), 1
+
+
+def _multiply(weaver: Weaver, a: int, b: int) -> _Pair:
+    """The mean of a product is that of both where one is the same everywhere, or both change evenly."""
+    fixed = weaver.graph.value(a) is not None or weaver.graph.value(b) is not None
+    return weaver.graph.mul(a, b), 1 if fixed or (weaver.even(a) and weaver.even(b)) else POINT_SIDE
+
+
+def _divide(weaver: Weaver, a: int, b: int) -> _Pair:
+    fixed = weaver.graph.value(b) is not None
+    return weaver.graph.div(a, b), 1 if fixed else POINT_SIDE
+
+
+def _of_two(work: Work) -> Rule:
+    return lambda weaver, term, env: zipped(weaver, term, env, work)
+
+
+def _negated(weaver: Weaver, term: Term, env: Env) -> Value:
+    value = weaver.value(term.parts[0], env)
+    nodes = tuple(weaver.graph.times(node, -1.0) for node in value.nodes[:3])
+    return Value((*nodes, *value.nodes[3:]), value.side)
+
+
+def _compared(weaver: Weaver, term: Term, env: Env) -> Value:
+    """How much of the pixel lies where one is below the other."""
+    a, b = (weaver.number(part, env.point) for part in term.parts)
+    if term.operation in (">", ">="):
+        a, b = b, a
+    left, right = a.nodes[0], b.nodes[0]
+    graph = weaver.graph
+    told = graph.sub(right, left)
+    if graph.value(told) is not None:
+        code = Code.LESS if len(term.operation) == 1 else Code.LESS_EQUAL
+        return Value((graph.node(code, left, right),))
+    return Value((weaver.covered(told),), max(a.side, b.side))
+
+
+def _chosen(weaver: Weaver, term: Term, env: Env) -> Value:
+    test = weaver.number(term.parts[0], env)
+    told = weaver.graph.value(test.nodes[0])
+    a, b = (weaver.value(part, env) for part in term.parts[1:])
+    if told is not None:
+        found = a if told != 0.0 else b
+        return weaver.as_colour(found) if a.coloured or b.coloured else found
+    return mixed_by(weaver, (b, a), Value((weaver.graph.within(test.nodes[0]),), test.side), env)
+
+
+def mixed_by(weaver: Weaver, ends: tuple[Value, Value], part: Value, env: Env) -> Value:
+    """Returns a mixture of two values, which become colours where one is."""
+    a, b = ends
+    if a.coloured != b.coloured:
+        a, b = weaver.as_colour(a), weaver.as_colour(b)
+    graph, way = weaver.graph, part.nodes[0]
+    nodes, side = [], max(a.side, b.side, part.side)
+    for one, other in zip(a.nodes, b.nodes, strict=True):
+        away = graph.sub(other, one)
+        if env.mean and graph.value(away) is None and graph.value(way) is None:
+            side = max(side, POINT_SIDE)
+        nodes.append(graph.blend(one, other, way))
+    return Value(tuple(nodes), side)
+
+
+def _mix(weaver: Weaver, term: Term, env: Env) -> Value:
+    a, b = (weaver.value(part, env) for part in term.parts[:2])
+    return mixed_by(weaver, (a, b), weaver.number(term.parts[2], env), env)
+
+
+def _bent(weaver: Weaver, a: int, b: int, sign: float) -> int:
+    """min (-1) or max (1) of two, or its mean where it bends."""
+    graph = weaver.graph
+    away = graph.sub(a, b)
+    if graph.value(away) is not None:
+        return graph.least(a, b) if sign < 0.0 else graph.most(a, b)
+    return graph.sub(a, weaver.ramped(away)) if sign < 0.0 else graph.add(b, weaver.ramped(away))
+
+
+def _least(weaver: Weaver, term: Term, env: Env) -> Value:
+    if not env.mean:
+        return zipped(weaver, term, env, lambda w, a, b: (w.graph.least(a, b), 1))
+    return zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, -1.0), 1))
+
+
+def _most(weaver: Weaver, term: Term, env: Env) -> Value:
+    if not env.mean:
+        return zipped(weaver, term, env, lambda w, a, b: (w.graph.most(a, b), 1))
+    return zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, 1.0), 1))
+
+
+def _absolute(weaver: Weaver, term: Term, env: Env) -> Value:
+    value, graph = weaver.number(term.parts[0], env.point), weaver.graph
+    node = value.nodes[0]
+    if not env.mean or graph.value(node) is not None:
+        return Value((graph.node(Code.ABS, node),), value.side)
+    return Value((graph.sub(graph.times(weaver.ramped(node), 2.0), node),), value.side)
+
+
+def _clamped(weaver: Weaver, term: Term, env: Env) -> Value:
+    value, low, high = (weaver.number(part, env.point) for part in term.parts)
+    side = max(value.side, low.side, high.side)
+    if not env.mean:
+        graph = weaver.graph
+        return Value((graph.least(graph.most(value.nodes[0], low.nodes[0]), high.nodes[0]),), side)
+    return Value((_bent(weaver, _bent(weaver, value.nodes[0], low.nodes[0], 1.0), high.nodes[0], -1.0),), side)
+
+
+def fractional(weaver: Weaver, node: int, mean: bool) -> tuple[int, int]:
+    """Returns what lies behind the point of a number, and how many samples it takes.
+
+    Its mean is exact where it changes evenly: the integral of fract(t) is (floor(t) + fract(t)^2) / 2.  As a point it
+    fades to 1/2 where a sample spans more than one whole number.
+    """
+    graph = weaver.graph
+    plain = graph.sub(node, graph.node(Code.FLOOR, node))
+    wide = weaver.width(node)
+    if graph.value(wide) == 0.0:
+        return plain, 1
+    if not mean:
+        seen = graph.within(graph.plus(graph.times(wide, -2.0), 2.4))
+        half = graph.constant(0.5)
+        return graph.add(half, graph.mul(graph.sub(plain, half), seen)), JUMP_SIDE
+    wide = graph.most(wide, graph.constant(1e-6))
+    ends = [graph.add(node, graph.times(wide, way)) for way in (-0.5, 0.5)]
+    wholes = [graph.node(Code.FLOOR, end) for end in ends]
+    rests = [graph.sub(end, whole) for end, whole in zip(ends, wholes, strict=True)]
+    squares = graph.sub(graph.mul(rests[1], rests[1]), graph.mul(rests[0], rests[0]))
+    summed = graph.add(graph.sub(wholes[1], wholes[0]), squares)
+    return graph.div(summed, graph.times(wide, 2.0)), 1
+
+
+def _fract(weaver: Weaver, term: Term, env: Env) -> Value:
+    value = weaver.number(term.parts[0], env.point)
+    node, side = fractional(weaver, value.nodes[0], env.mean)
+    return Value((node,), max(side, value.side))
+
+
+def _floor(weaver: Weaver, term: Term, env: Env) -> Value:
+    value = weaver.number(term.parts[0], env.point)
+    node = value.nodes[0]
+    if not env.mean:
+        return Value((weaver.graph.node(Code.FLOOR, node),), JUMP_SIDE)
+    rest, side = fractional(weaver, node, True)
+    return Value((weaver.graph.sub(node, rest),), max(side, value.side))
+
+
+def _mod(weaver: Weaver, term: Term, env: Env) -> Value:
+    a, b = (weaver.number(part, env.point) for part in term.parts)
+    rest, side = fractional(weaver, weaver.graph.div(a.nodes[0], b.nodes[0]), env.mean)
+    return Value((weaver.graph.mul(b.nodes[0], rest),), max(side, a.side, b.side))
+
+
+def _step(weaver: Weaver, term: Term, env: Env) -> Value:
+    edge, value = (weaver.number(part, env.point) for part in term.parts)
+    graph, away = weaver.graph, weaver.graph.sub(value.nodes[0], edge.nodes[0])
+    if graph.value(away) is not None:
+        return Value((graph.node(Code.LESS_EQUAL, edge.nodes[0], value.nodes[0]),))
+    return Value((weaver.covered(away),), max(edge.side, value.side))
+
+
+def smooth(weaver: Weaver, t: int) -> int:
+    """Returns the mean of 3 t^2 - 2 t^3 over a sample, by its integral t^3 - t^4 / 2; beyond 0..1 it is level."""
+    graph = weaver.graph
+    flat = graph.within(t)
+    plain = graph.mul(graph.mul(flat, flat), graph.plus(graph.times(flat, -2.0), 3.0))
+    wide = weaver.width(t)
+    told = graph.value(wide)
+    if told is not None and told < 1e-3:
+        return plain
+    ends = []
+    for way in (-0.5, 0.5):
+        end = graph.add(t, graph.times(wide, way))
+        within = graph.within(end)
+        cube = graph.mul(graph.mul(within, within), within)
+        inner = graph.mul(cube, graph.plus(graph.times(within, -0.5), 1.0))
+        ends.append(graph.add(inner, graph.most(graph.plus(end, -1.0), graph.constant(0.0))))
+    mean = graph.div(graph.sub(ends[1], ends[0]), graph.most(wide, graph.constant(1e-3)))
+    return graph.pick(graph.node(Code.LESS, wide, graph.constant(1e-3)), plain, mean)
+
+
+def _smoothstep(weaver: Weaver, term: Term, env: Env) -> Value:
+    low, high, value = (weaver.number(part, env.point) for part in term.parts)
+    graph = weaver.graph
+    t = graph.div(graph.sub(value.nodes[0], low.nodes[0]), graph.sub(high.nodes[0], low.nodes[0]))
+    return Value((smooth(weaver, t),), max(low.side, high.side, value.side))
+
+
+def _wave(code: Code) -> Rule:
+    def rule(weaver: Weaver, term: Term, env: Env) -> Value:
+        """The mean of a sine over the width w of a sample is sin(w / 2) / (w / 2) of it."""
+        value = weaver.number(term.parts[0], env.point)
+        graph, node = weaver.graph, value.nodes[0]
+        wave = graph.node(code, node)
+        half = graph.times(weaver.width(node), 0.5)
+        told = graph.value(half)
+        if told == 0.0:
+            return Value((wave,), value.side)
+        small = graph.most(half, graph.constant(1e-4))
+        left = graph.div(graph.node(Code.SIN, small), small)
+        if told is None:
+            left = graph.pick(graph.node(Code.LESS, half, graph.constant(3.141592653589793)), left, graph.constant(0.0))
+        return Value((graph.mul(wave, left),), max(value.side, 1 if weaver.even(node) else POINT_SIDE))
+
+    return rule
+
+
+def _plain(code: Code) -> Rule:
+    def rule(weaver: Weaver, term: Term, env: Env) -> Value:
+        """A function without an integral of its own: by samples, where it is not the same everywhere."""
+        values = [weaver.number(part, env.point) for part in term.parts]
+        node = weaver.graph.node(code, *(value.nodes[0] for value in values))
+        side = 1 if weaver.graph.value(node) is not None or not env.mean else POINT_SIDE
+        return Value((node,), max(side, *(value.side for value in values)))
+
+    return rule
+
+
+def _power(weaver: Weaver, term: Term, env: Env) -> Value:
+    base, exponent = (weaver.number(part, env.point) for part in term.parts)
+    graph, told = weaver.graph, weaver.graph.value(exponent.nodes[0])
+    side = max(base.side, exponent.side, POINT_SIDE if env.mean else 1)
+    node = base.nodes[0]
+    if told is None or told not in (0.0, 1.0, 2.0, 3.0, 4.0) or graph.value(node) is not None:
+        return Value((graph.node(Code.POW, node, exponent.nodes[0]),), side)
+    if told % 2.0:
+        node = graph.node(Code.ABS, node)
+    made = graph.constant(1.0)
+    for _ in range(int(told)):
+        made = graph.mul(made, node)
+    return Value((made,), side)
+
+
+ARITHMETIC: dict[str, Rule] = {
+    "+": _of_two(_add),
+    "-": _of_two(_subtract),
+    "*": _of_two(_multiply),
+    "/": _of_two(_divide),
+    "neg": _negated,
+    "<": _compared,
+    "<=": _compared,
+    ">": _compared,
+    ">=": _compared,
+    "if": _chosen,
+}
+FUNCTIONS_OF_NUMBERS: dict[str, tuple[int, int, Rule, str]] = {
+    "min": (2, 2, _least, "min(a, b): the smaller one"),
+    "max": (2, 2, _most, "max(a, b): the larger one"),
+    "clamp": (3, 3, _clamped, "clamp(a, low, high): a, but not below low or above high"),
+    "mix": (3, 3, _mix, "mix(a, b, part): from a, at 0, to b, at 1; numbers or colours"),
+    "step": (2, 2, _step, "step(edge, a): 1 where a is at least the edge, else 0"),
+    "smoothstep": (3, 3, _smoothstep, "smoothstep(low, high, a): from 0 to 1 while a goes from low to high"),
+    "abs": (1, 1, _absolute, "abs(a): without its sign"),
+    "floor": (1, 1, _floor, "floor(a): the next whole number below"),
+    "fract": (1, 1, _fract, "fract(a): what is behind the point"),
+    "mod": (2, 2, _mod, "mod(a, b): what is left of a, divided by b"),
+    "sqrt": (1, 1, _plain(Code.SQRT), "sqrt(a): the square root of a without its sign"),
+    "pow": (2, 2, _power, "pow(a, b): a without its sign to the power of b"),
+    "exp": (1, 1, _plain(Code.EXP), "exp(a): e to the power of a"),
+    "log": (1, 1, _plain(Code.LOG), "log(a): the natural logarithm of a without its sign"),
+    "sin": (1, 1, _wave(Code.SIN), "sin(a): the sine of a, in radians"),
+    "cos": (1, 1, _wave(Code.COS), "cos(a): the cosine of a, in radians"),
+    "tan": (1, 1, _plain(Code.TAN), "tan(a): the tangent of a, in radians"),
+    "atan2": (2, 2, _plain(Code.ATAN2), "atan2(y, x): the direction of (x, y), in radians, clockwise from rightwards"),
+}

@@ -1,0 +1,152 @@
+"""Patterns that repeat: stripes, squares, bricks, tiles, dots, hexagons, with what the pixel holds of each side."""
+
+from __future__ import annotations
+
+import math
+
+from engine.texture.expression.codes import Code
+from engine.texture.expression.noise_words import white
+from engine.texture.expression.weaving import Env, Rule, Value, Weaver
+from engine.texture.expression.written import Term
+
+_GAP, _SHIFT, _RADIUS = 0.1, 0.5, 0.3
+_HEX = math.sqrt(3.0)
+
+
+def _numbers(weaver: Weaver, term: Term, env: Env, usual: tuple[float, ...]) -> tuple[list[int], int]:
+    """Returns nodes of a function's values; those that are left out take what is usual, of the last ones."""
+    values = [weaver.number(part, env.point) for part in term.parts]
+    nodes = [value.nodes[0] for value in values]
+    side = max(value.side for value in values)
+    missing = PATTERN_WORDS[term.operation][1] - len(nodes)
+    return nodes + [weaver.graph.constant(one) for one in usual[len(usual) - missing :]], side
+
+
+def pulse(weaver: Weaver, t: int, part: int) -> int:
+    """Returns the mean of what is 1 while fract(t) is below `part`, else 0."""
+    graph = weaver.graph
+    wide = graph.most(weaver.width(t), graph.constant(1e-9))
+    ends = [graph.add(t, graph.times(wide, way)) for way in (-0.5, 0.5)]
+    wholes = [graph.node(Code.FLOOR, end) for end in ends]
+    rests = [graph.least(graph.sub(end, whole), part) for end, whole in zip(ends, wholes, strict=True)]
+    summed = graph.add(graph.mul(graph.sub(wholes[1], wholes[0]), part), graph.sub(rests[1], rests[0]))
+    return graph.div(summed, wide)
+
+
+def _bounded(weaver: Weaver, node: int) -> int:
+    return weaver.graph.within(node)
+
+
+def _rest(weaver: Weaver, node: int) -> tuple[int, int]:
+    """Returns the whole number below, and what is behind the point, as they are at a point."""
+    whole = weaver.graph.node(Code.FLOOR, node)
+    return whole, weaver.graph.sub(node, whole)
+
+
+def _stripes(weaver: Weaver, term: Term, env: Env) -> Value:
+    (t, part), side = _numbers(weaver, term, env, (0.5,))
+    return Value((pulse(weaver, t, _bounded(weaver, part)),), side)
+
+
+def _squares(weaver: Weaver, term: Term, env: Env) -> Value:
+    (x, y), side = _numbers(weaver, term, env, ())
+    graph, half = weaver.graph, weaver.graph.constant(0.5)
+    waves = [graph.plus(graph.times(pulse(weaver, graph.times(t, 0.5), half), 2.0), -1.0) for t in (x, y)]
+    return Value((graph.plus(graph.times(graph.mul(*waves), 0.5), 0.5),), side)
+
+
+def _bar(weaver: Weaver, t: int, gap: int) -> int:
+    """Returns 1 but for a gap about each whole number."""
+    graph = weaver.graph
+    there = graph.plus(graph.times(gap, -1.0), 1.0)
+    return pulse(weaver, graph.sub(t, graph.times(gap, 0.5)), there)
+
+
+def _tiles(weaver: Weaver, term: Term, env: Env) -> Value:
+    (x, y, gap), side = _numbers(weaver, term, env, (_GAP,))
+    gap = _bounded(weaver, gap)
+    return Value((weaver.graph.mul(_bar(weaver, x, gap), _bar(weaver, y, gap)),), side)
+
+
+def _bricks(weaver: Weaver, term: Term, env: Env) -> Value:
+    """Where a sample meets several courses, the upright joints are their mean."""
+    (x, y, gap, shift), side = _numbers(weaver, term, env, (_GAP, _SHIFT))
+    graph, gap = weaver.graph, _bounded(weaver, gap)
+    course, _ = _rest(weaver, y)
+    along = _bar(weaver, graph.add(x, graph.mul(course, shift)), gap)
+    other = _bar(weaver, graph.add(x, graph.mul(graph.plus(course, 1.0), shift)), gap)
+    both = graph.times(graph.add(along, other), 0.5)
+    many = graph.within(graph.plus(graph.times(weaver.width(y), 2.0), -0.5))
+    return Value((graph.mul(graph.blend(along, both, many), _bar(weaver, y, gap)),), side)
+
+
+def _bricks_random(weaver: Weaver, term: Term, env: Env) -> Value:
+    (x, y, shift), side = _numbers(weaver, term, env, (_SHIFT,))
+    course, _ = _rest(weaver, y)
+    place = [weaver.graph.add(x, weaver.graph.mul(course, shift)), y]
+    return Value((white(weaver, place, 0),), side)
+
+
+def _dots(weaver: Weaver, term: Term, env: Env) -> Value:
+    (x, y, radius), side = _numbers(weaver, term, env, (_RADIUS,))
+    graph = weaver.graph
+    near = [graph.plus(_rest(weaver, t)[1], -0.5) for t in (x, y)]
+    far = graph.node(Code.SQRT, graph.add(graph.mul(near[0], near[0]), graph.mul(near[1], near[1])))
+    dot = weaver.covered(graph.sub(radius, far))
+    area = graph.within(graph.times(graph.mul(radius, radius), math.pi))
+    return Value((_unless_fine(weaver, dot, area, (x, y)),), side)
+
+
+def _unless_fine(weaver: Weaver, node: int, mean: int, place: tuple[int, int]) -> int:
+    """Returns something, or its mean where a sample spans a whole repeat of it."""
+    graph = weaver.graph
+    wide = graph.most(*(weaver.width(t) for t in place))
+    return graph.blend(node, mean, graph.within(graph.plus(graph.times(wide, 1.6), -0.9)))
+
+
+def _hexagon(weaver: Weaver, x: int, y: int) -> tuple[int, int, int]:
+    """Returns how far it is to the edge of the hexagon, a unit across, and the middle of that."""
+    graph = weaver.graph
+    found = []
+    for half in (0.0, 0.5):
+        across = graph.plus(graph.node(Code.FLOOR, graph.plus(x, 0.5 - half)), half)
+        row = graph.plus(graph.node(Code.FLOOR, graph.plus(graph.times(y, 1.0 / _HEX), 0.5 - half)), half)
+        right, below = graph.sub(x, across), graph.sub(y, graph.times(row, _HEX))
+        far = graph.add(graph.mul(right, right), graph.mul(below, below))
+        found.append((far, right, below, across, row))
+    nearer = graph.node(Code.LESS, found[0][0], found[1][0])
+    right, below, across, row = (graph.pick(nearer, *pair) for pair in list(zip(*found, strict=True))[1:])
+    right, below = (graph.node(Code.ABS, one) for one in (right, below))
+    slanted = graph.add(graph.times(right, 0.5), graph.times(below, _HEX / 2.0))
+    edge = graph.sub(graph.constant(0.5), graph.most(right, slanted))
+    return edge, across, row
+
+
+def _hexagons(weaver: Weaver, term: Term, env: Env) -> Value:
+    (x, y, gap), side = _numbers(weaver, term, env, (_GAP,))
+    graph, gap = weaver.graph, _bounded(weaver, gap)
+    edge, _, _ = _hexagon(weaver, x, y)
+    there = weaver.covered(graph.sub(edge, graph.times(gap, 0.5)))
+    rest = graph.plus(graph.times(gap, -1.0), 1.0)
+    return Value((_unless_fine(weaver, there, graph.mul(rest, rest), (x, y)),), side)
+
+
+def _hexagons_random(weaver: Weaver, term: Term, env: Env) -> Value:
+    (x, y), side = _numbers(weaver, term, env, ())
+    _, across, row = _hexagon(weaver, x, y)
+    graph = weaver.graph
+    place = [graph.plus(graph.times(one, 2.0), 0.5) for one in (across, row)]
+    made = white(weaver, place, 0)
+    return Value((_unless_fine(weaver, made, graph.constant(0.5), (x, y)),), max(side, 2))
+
+
+PATTERN_WORDS: dict[str, tuple[int, int, Rule, str]] = {
+    "stripes": (1, 2, _stripes, "stripes(a, part): 1 for the first part of each unit of a, else 0"),
+    "squares": (2, 2, _squares, "squares(x, y): a checkerboard of unit squares, 1 and 0"),
+    "tiles": (2, 3, _tiles, "tiles(x, y, gap): 1 in unit squares, 0 in the gaps between them"),
+    "bricks": (2, 4, _bricks, "bricks(x, y, gap, shift): 1 in unit bricks, each course shifted, 0 in the joints"),
+    "bricks_random": (2, 3, _bricks_random, "bricks_random(x, y, shift): a random number for each brick"),
+    "dots": (2, 3, _dots, "dots(x, y, radius): 1 in a disc in each unit square, else 0"),
+    "hexagons": (2, 3, _hexagons, "hexagons(x, y, gap): 1 in hexagons a unit across, 0 in the gaps"),
+    "hexagons_random": (2, 2, _hexagons_random, "hexagons_random(x, y): a random number for each hexagon"),
+}

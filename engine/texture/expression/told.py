@@ -1,0 +1,99 @@
+"""WrittenText textures as definitions and keys tell them, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from engine.checks.field_error import FieldError
+from engine.checks.values import described, is_integer, is_within
+from engine.texture.expression.language import COST_MOST, read
+from engine.texture.expression.written import CHARACTERS_MOST, Adjustable, WrittenError, WrittenText, is_colour
+from engine.texture.expression.written_ink import Expression, woven_program
+
+PERIOD = 64.0  # pixels, usually
+PERIOD_LEAST, PERIOD_MOST = 2.0**-10, 2.0**40
+_NEAR = 12  # levels finer: where all octaves are in sight
+_DEEPEST = 1 << 16
+
+Values = tuple[tuple[str, float | str], ...]
+
+
+def expression(parameters: Mapping[str, object], base: int) -> Expression:
+    """Returns the texture that the parameters of a definition tell; FieldError names what is wrong."""
+    text = parameters.get("text")
+    if not isinstance(text, str):
+        raise FieldError("text", described(text), f"a text of at most {CHARACTERS_MOST} characters")
+    period, level, seed = parameters.get("period", PERIOD), parameters.get("level", 0), parameters.get("seed", 0)
+    if not is_within(period, PERIOD_LEAST, PERIOD_MOST):
+        raise FieldError("period", described(period), f"a number from {PERIOD_LEAST:g} to {PERIOD_MOST:g}")
+    if not is_integer(level) or not is_within(level, -_DEEPEST, _DEEPEST):
+        raise FieldError("level", described(level), f"an integer from {-_DEEPEST} to {_DEEPEST}")
+    if not is_integer(seed) or not is_within(seed, -(1 << 63), (1 << 64) - 1):
+        raise FieldError("seed", described(seed), "an integer of at most 64 bits")
+    assert isinstance(period, int | float)
+    assert isinstance(level, int)
+    assert isinstance(seed, int)
+    try:
+        values = chosen_values(read(text), parameters.get("values", {}))
+        check_woven(text, values, seed, float(period))
+    except WrittenError as error:
+        raise FieldError(f"text, line {error.line}, column {error.column}", error.found, error.expected) from None
+    return Expression(base, text, float(period), level, seed, values)
+
+
+def expression_of_key(key: Sequence[object]) -> Expression:
+    """Returns the texture whose key this is; FieldError names what is wrong."""
+    base = key[1]
+    if len(key) < 6 or len(key) % 2 or not isinstance(base, int):
+        raise FieldError("key", described(list(key)), "[kind, base level, text, period, level, seed, name, value, ...]")
+    values = {str(name): value for name, value in zip(key[6::2], key[7::2], strict=True)}
+    made = expression({"text": key[2], "period": key[3], "level": key[4], "seed": key[5], "values": values}, base)
+    return replace(made, covers=key[0] == "expression-cover")
+
+
+def check_woven(text: str, values: Values, seed: int = 0, period: float = PERIOD) -> None:
+    """Weaves a text from near and far.  WrittenError if it cannot be, or is too dear."""
+    for finer in (0, _NEAR):
+        made = woven_program(text, values, seed, finer, period)
+        if made.cost > COST_MOST:
+            told = f"{made.cost / 1000.0:.0f} microseconds a pixel"
+            raise WrittenError((1, 1), told, f"{COST_MOST / 1000.0:.0f} at most: fewer octaves, lines or samples")
+
+
+def chosen_values(written: WrittenText, given: object) -> Values:
+    """Returns the values of all sliders, by name: those that are given, else the usual ones."""
+    if not isinstance(given, Mapping):
+        raise FieldError("values", described(given), "{name: a number or a colour, ...}")
+    sliders = written.sliders
+    for name in given:
+        if name not in sliders:
+            expected = ", ".join(sliders) if sliders else "none: the text has no sliders"
+            raise FieldError("values", described(name), expected)
+    return tuple((name, _chosen(name, slider, given.get(name, slider.usual))) for name, slider in sliders.items())
+
+
+def _chosen(name: str, slider: Adjustable, value: object) -> float | str:
+    if isinstance(slider.usual, str):
+        if not isinstance(value, str) or not is_colour(value):
+            raise FieldError(f"values.{name}", described(value), "a colour, #rrggbb or #rrggbbaa")
+        return value.lower()
+    if not is_within(value, slider.least, slider.most):
+        raise FieldError(f"values.{name}", described(value), f"a number from {slider.least:g} to {slider.most:g}")
+    assert isinstance(value, int | float)
+    number = float(value) + 0.0
+    if slider.step > 0.0:
+        number = min(slider.least + round((number - slider.least) / slider.step) * slider.step, slider.most)
+    return number
+
+
+def anew(defined: Mapping[str, object], given: Mapping[str, object], level: int) -> dict[str, object]:
+    """Returns a definition's parameters with what a brush's ink gives in their place: of values those alone that it
+    names, and a period in pixels of the stroke's level."""
+    out = {**defined, **given}
+    before, after = defined.get("values"), given.get("values")
+    if isinstance(before, Mapping) and isinstance(after, Mapping):
+        out["values"] = {**before, **after}
+    if "period" in given and "level" not in given:
+        out["level"] = level
+    return out

@@ -1,0 +1,219 @@
+"""From a text to operations on numbers: what each part of it comes to at a pixel of a level.
+
+A part is asked for in one of two ways. Its *mean* over the pixel is what is shown: sums and multiples are exact, of
+jumps and bends what the pixel holds of each side. Its value at a *point* is what something else is made of, as a place
+or the height that a threshold cuts.  What neither way is exact of asks for more samples a pixel.
+
+A line is a function of the place: where it is turned, warped or repeated, it is asked for once more, elsewhere.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import NoReturn
+
+from engine.numeric.formula import CONSTANTS
+from engine.texture.expression.codes import Code
+from engine.texture.expression.graph import Graph, TooLarge
+from engine.texture.expression.slopes import Slopes
+from engine.texture.expression.written import PICK, SLIDER, Term, WrittenError, WrittenText
+
+NESTED_MOST = 160  # parts within one another, lines that others refer to counted in
+POINT_SIDE, JUMP_SIDE = 2, 4  # samples along a pixel where a mean is not exact, and where it jumps
+_NARROW = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """`nodes`: one of a number, four of a colour (red, green, blue times alpha, and alpha); `side`: samples along a
+    pixel that it takes."""
+
+    nodes: tuple[int, ...]
+    side: int = 1
+
+    @property
+    def coloured(self) -> bool:
+        """Tells whether it is a colour."""
+        return len(self.nodes) == 4
+
+
+@dataclass(frozen=True, slots=True)
+class Env:
+    """Where a part is asked for: `x`, `y` and, within something repeated, the nodes of the repeat's number; `mean`:
+    whether over the pixel or at a point."""
+
+    x: int
+    y: int
+    cell: tuple[int, int]
+    mean: bool = True
+    static: bool = False  # whether what is asked for must be the same at all levels
+
+    @property
+    def point(self) -> Env:
+        """Gives the same place, but not its mean."""
+        return replace(self, mean=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """`values`: of sliders, by name; `level`, `seed` as the text sees them; `width`: of a sample, in periods."""
+
+    values: Mapping[str, float | str]
+    level: int
+    seed: int
+    width: float
+
+
+Rule = Callable[["Weaver", Term, Env], Value]
+
+
+class Weaver:
+    """Asks for the parts of one text; remembers what it was asked for."""
+
+    def __init__(self, written: WrittenText, setting: Setting, rules: Mapping[str, Rule]) -> None:
+        self.written, self.setting, self._rules = written, setting, rules
+        self.graph = Graph()
+        self.slopes = Slopes(self.graph)
+        self._lines = {line.name: n for n, line in enumerate(written.lines)}
+        self._known: dict[tuple[int, Env], Value] = {}
+        self._deep = 0
+        zero = self.graph.constant(0.0)
+        self.here = Env(self.graph.x, self.graph.y, (zero, zero))
+
+    def line(self, number: int, env: Env) -> Value:
+        """Returns what a line of the text comes to."""
+        known = self._known.get((number, env))
+        if known is None:
+            line = self.written.lines[number]
+            given = self.setting.values.get(line.name) if line.slider is not None else None
+            known = self.value(line.term, env) if given is None else self._set(given)
+            self._known[number, env] = known
+        return known
+
+    def value(self, term: Term, env: Env) -> Value:
+        """Returns what a part of the text comes to.  WrittenError if it is no such thing, or too much."""
+        rule = self._rules.get(term.operation) or _OWN.get(term.operation)
+        assert rule is not None
+        if self._deep >= NESTED_MOST:
+            self.refuse(term, "one level more", f"{NESTED_MOST} levels at most, those of the lines before counted in")
+        self._deep += 1
+        try:
+            return rule(self, term, env)
+        except TooLarge:
+            self.refuse(term, "too much at once", "fewer or shorter lines: each repeats all that it is made of")
+        finally:
+            self._deep -= 1
+
+    def refuse(self, term: Term, found: str, expected: str) -> NoReturn:
+        """Raises a mistake of a part."""
+        raise WrittenError(self.written.place(term.token.at), found, expected)
+
+    def number(self, term: Term, env: Env) -> Value:
+        """Returns a part that must be a number."""
+        found = self.value(term, env)
+        if found.coloured:
+            self.refuse(term, "a colour", "a number")
+        return found
+
+    def colour(self, term: Term, env: Env) -> Value:
+        """Returns a part as a colour: a number is a grey."""
+        return self.as_colour(self.value(term, env))
+
+    def as_colour(self, value: Value) -> Value:
+        """Returns a value as a colour: a number is a grey."""
+        if value.coloured:
+            return value
+        return Value((*value.nodes * 3, self.graph.constant(1.0)), value.side)
+
+    def fixed(self, term: Term, env: Env, least: float, most: float, whole: bool = False) -> float:
+        """Returns a part that must be a number which is the same everywhere."""
+        found = self.graph.value(self.number(term, replace(env, mean=False, static=True)).nodes[0])
+        if found is None:
+            self.refuse(term, "a number that changes from place to place", "one that does not, as a number or a slider")
+        if not least <= found <= most or (whole and found != math.floor(found)):
+            kind = "a whole number" if whole else "a number"
+            self.refuse(term, f"{found:g}", f"{kind} from {least:g} to {most:g}")
+        return found
+
+    def named(self, name: str) -> int | None:
+        """Returns the line of a name."""
+        return self._lines.get(name)
+
+    def width(self, node: int) -> int:
+        """Returns how far something changes from one side of a sample to the other."""
+        across, down = (self.graph.value(one) for one in self.slopes.of(node))
+        scale = self.setting.width
+        if across is not None and down is not None:
+            return self.graph.constant(min(math.sqrt(across * across + down * down) * scale, 1e30))
+        return self.graph.node(Code.WIDTH, *self.slopes.of(node), numbers=(scale,))
+
+    def even(self, node: int) -> bool:
+        """Tells whether something changes evenly across the plane, or not at all."""
+        return all(self.graph.value(one) is not None for one in self.slopes.of(node))
+
+    def covered(self, node: int) -> int:
+        """Returns how much of a sample lies where something is above 0, as far as its slope tells."""
+        graph = self.graph
+        wide = graph.most(self.width(node), graph.constant(_NARROW))
+        return graph.within(graph.plus(graph.div(node, wide), 0.5))
+
+    def ramped(self, node: int) -> int:
+        """Returns the mean of something where it is above 0, and of 0 elsewhere."""
+        graph = self.graph
+        wide = graph.most(self.width(node), graph.constant(_NARROW))
+        half = graph.times(wide, 0.5)
+        under = graph.least(graph.most(graph.add(node, half), graph.constant(0.0)), wide)
+        bend = graph.div(graph.mul(under, under), graph.times(wide, 2.0))
+        return graph.add(bend, graph.most(graph.sub(node, half), graph.constant(0.0)))
+
+    def _set(self, given: float | str) -> Value:
+        if isinstance(given, str):
+            return Value(tuple(self.graph.constant(part) for part in premultiplied(given)))
+        return Value((self.graph.constant(given),))
+
+
+def premultiplied(colour: str) -> tuple[float, float, float, float]:
+    """Returns encoded red, green and blue times alpha, and alpha, of "#rrggbb" or "#rrggbbaa"."""
+    red, green, blue, alpha = (*(value / 255.0 for value in bytes.fromhex(colour[1:])), 1.0)[:4]
+    return red * alpha, green * alpha, blue * alpha, alpha
+
+
+def _number(weaver: Weaver, term: Term, env: Env) -> Value:
+    return Value((weaver.graph.constant(float(term.told)),))
+
+
+def _constant(weaver: Weaver, term: Term, env: Env) -> Value:
+    return Value((weaver.graph.constant(CONSTANTS[term.told]),))
+
+
+def _colour(weaver: Weaver, term: Term, env: Env) -> Value:
+    return Value(tuple(weaver.graph.constant(part) for part in premultiplied(term.told)))
+
+
+def _name(weaver: Weaver, term: Term, env: Env) -> Value:
+    line = weaver.named(term.told)
+    if line is not None:
+        return weaver.line(line, env)
+    setting = weaver.setting
+    if term.told in ("x", "y"):
+        return Value((env.x if term.told == "x" else env.y,))
+    if env.static and term.told in ("fw", "level"):
+        weaver.refuse(term, "a number that changes from level to level", "one that does not")
+    told = {"fw": setting.width, "level": float(setting.level), "seed": float(setting.seed % (1 << 24))}
+    return Value((weaver.graph.constant(told[term.told]),))
+
+
+def _first(weaver: Weaver, term: Term, env: Env) -> Value:
+    return weaver.value(term.parts[0], env)
+
+
+_OWN: dict[str, Rule] = {
+    "number": _number,
+    "constant": _constant,
+    "colour": _colour,
+    "name": _name,
+    SLIDER: _first,
+    PICK: _first,
+}

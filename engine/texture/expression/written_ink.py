@@ -1,0 +1,116 @@
+"""WrittenText textures as instances: what they look like at a level, and what each finer level adds.
+
+What they show is worked out for the width of a pixel at each level, so that the bandpass is what is left of a level
+when the coarser one is taken from it.  A number is grey, -1..1 for 0..1; a colour is premultiplied, as of a gradient.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+from engine.numeric.address import Rect
+from engine.numeric.detail import cut, parents, subtract_expanded
+from engine.texture.expression.language import read, weave
+from engine.texture.expression.programs import Program, draw_program, program
+from engine.texture.expression.weaving import Setting
+
+FINEST_PIXEL = 34  # a pixel of 2^-34 periods is the last that differs from its neighbours
+_COARSEST = -40  # levels above where the period is told
+_MEMO = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Expression:
+    """`period`: pixels of `level` that the text calls 1; `values`: of all its sliders, by name; `covers`: not the
+    colours, but what they hide."""
+
+    base: int
+    text: str
+    period: float
+    level: int
+    seed: int
+    values: tuple[tuple[str, float | str], ...] = ()
+    covers: bool = False
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """Tells this instance from all others, as `Instance.key`."""
+        kind = "expression-cover" if self.covers else "expression"
+        pairs = (part for pair in self.values for part in pair)
+        return (kind, self.base, self.text, self.period, self.level, self.seed, *pairs)
+
+    @property
+    def shows_colours(self) -> bool:
+        """Tells whether it has colours, and not only brightness."""
+        return self.at(self.base).channels == 4
+
+    @property
+    def cover(self) -> Expression | None:
+        """Returns what the texture hides, for an ink that lies over another colour; None if it hides all."""
+        made = self.at(self.base)
+        clear = made.channels == 4 and not _always(made, 3, 1.0)
+        return replace(self, covers=True) if clear and not self.covers else None
+
+    def at(self, level: int) -> Program:
+        """Returns the program that draws a level."""
+        return _program(self.text, self.values, self.seed, level - self.level, self.period)
+
+    def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """Gives S at a level over a rectangle, as `Instance.appearance`: (1, h, w); of colours premultiplied (4, h,
+        w), of a cover (1, h, w)."""
+        if level < self.base:
+            raise ValueError(f"expression: level {level} is coarser than the base level {self.base}")
+        return self.means(level, rect)[slice(3, 4) if self.covers else slice(0, 4)]
+
+    def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        """Gives what the level adds over a rectangle, as `Instance.bandpass`."""
+        if level <= self.base or rect.empty or pixels(self.period, level - 1 - self.level) >= 1 << FINEST_PIXEL:
+            return None
+        even, planes = rect.evened(), slice(3, 4) if self.covers else slice(0, 3)
+        out = np.ascontiguousarray(self.means(level, even)[planes])
+        if not subtract_expanded(out, np.ascontiguousarray(self.means(level - 1, parents(even))[planes])):
+            return None
+        inner = cut(out, rect, even)
+        return inner if rect == even or inner.any() else None
+
+    def means(self, level: int, rect: Rect) -> np.ndarray:
+        """Returns what the pixels of a rectangle show: float32, (1, h, w) of -1..1 or (4, h, w) of 0..1."""
+        made = self.at(level)
+        out = draw_program(made, rect, pixels(self.period, level - self.level))
+        if made.channels == 1:
+            out *= np.float32(2.0)
+            out -= np.float32(1.0)
+        return out
+
+
+def pixels(period: float, finer: int) -> Fraction:
+    """Returns how many pixels a period has, so many levels finer than where it is told."""
+    bounded = max(-2000, min(2000, finer))
+    return Fraction(period) * Fraction(2) ** bounded
+
+
+def _always(made: Program, channel: int, value: float) -> bool:
+    row = int(made.shown[channel])
+    return row < made.constants.size and float(made.constants[row]) == value
+
+
+@lru_cache(_MEMO)
+def _program(text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float) -> Program:
+    return woven_program(text, values, seed, finer, period)
+
+
+def woven_program(
+    text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, line: int = -1
+) -> Program:
+    """Returns the program of a line of a text, so many levels finer than where its period is told."""
+    written = read(text)
+    setting = Setting(dict(values), finer, seed, float(1 / pixels(period, max(finer, _COARSEST))))
+    woven = weave(written, setting, line)
+    side = woven.value.side
+    if side > 1:
+        woven = weave(written, replace(setting, width=setting.width / side), line)
+    return program(woven, side)
