@@ -14,7 +14,7 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.arithmetic import LIBRARY
 from engine.painting.commands import DefineTexture
 from engine.painting.layering.touch_command import NO_TOUCHES, Touches
-from engine.texture.expression.told import anew
+from engine.texture.expression.defined import anew
 from engine.texture.image import ImageSource
 from engine.texture.record import Instance
 from engine.texture.table import EXPRESSION, KINDS, instance

@@ -14,7 +14,7 @@ from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_within
 from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
-from engine.texture.expression.told import expression, expression_of_key
+from engine.texture.expression.defined import expression, expression_of_key
 from engine.texture.gradient import gradient, gradient_of_key
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.learnt.inks import REFINABLE, learnt

@@ -104,7 +104,7 @@ def _text(given: argparse.Namespace) -> _Given:
 def _made(text: _Given, given: argparse.Namespace) -> Expression:
     """Returns the texture, by the same command as in a recording."""
     from engine.checks.field_error import FieldError
-    from engine.texture.expression.told import expression
+    from engine.texture.expression.defined import expression
 
     values = dict(_setting(word) for word in given.set)
     told = {"text": text.text, "period": given.period, "seed": given.seed, "values": values}

@@ -6,7 +6,7 @@ import pytest
 from engine.numeric.address import Rect
 from engine.numeric.detail import parents, subtract_expanded
 from engine.texture import table
-from engine.texture.expression.told import anew, expression
+from engine.texture.expression.defined import anew, expression
 from engine.texture.record import Instance
 
 TEXTS = {

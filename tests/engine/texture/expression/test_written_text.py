@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from engine.checks.field_error import FieldError
+from engine.texture.expression.defined import expression
 from engine.texture.expression.language import FUNCTIONS, read
-from engine.texture.expression.told import expression
 from engine.texture.expression.written import CHARACTERS_MOST, LINES_MOST, PARTS_MOST, Adjustable, WrittenError
 
 
