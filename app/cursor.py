@@ -143,8 +143,10 @@ def draw_ghost(desk: Desk) -> None:
     size, pad = said.calc_text_size(text), 5 * desk.scale
     x = at.x - size.x / 2
     y = min(at.y + brush.radius + 2 * pad, desk.view.height - size.y - 3 * pad)
-    painter.add_rect_filled((x - pad, y - pad), (x + size.x + pad, y + size.y + pad), theme.packed(theme.PANEL), pad)
-    said.add_text(painter, ImVec2(x, y), theme.packed(theme.TEXT), text)
+    painter.add_rect_filled(
+        (x - pad, y - pad), (x + size.x + pad, y + size.y + pad), theme.packed(theme.look.panel), pad
+    )
+    said.add_text(painter, ImVec2(x, y), theme.packed(theme.look.text), text)
 
 
 def dab_rings(radius: float, hardness: float) -> list[tuple[float, float]]:

@@ -84,14 +84,18 @@ def _resize(desk: Desk, ctx: moderngl.Context, width: int, height: int) -> None:
         ctx.viewport = (0, 0, width, height)
 
 
-def _look(screen: float, preferences: Preferences) -> tuple[float, float, str]:
-    """Gives all beside the canvas the preferred sizes on a screen of so many pixels per point, and the language;
-    pixels per point then, the font's size, and the language that was chosen."""
-    look = screen * preferences.scale, preferences.font_size
-    theme.apply(*look)
-    if not load_wide_font(speak(preferences.language)):
+def _look(screen: float, preferences: Preferences) -> tuple[float, float, str, str]:
+    """Gives all beside the canvas the preferred look and sizes on a screen of so many pixels per point, and the
+    language; pixels per point then, the font's size, the look and the language that were chosen."""
+    wished = _wished(screen, preferences)
+    theme.apply(*wished[:3])
+    if not load_wide_font(speak(wished[3])):
         speak("en")
-    return *look, preferences.language
+    return wished
+
+
+def _wished(screen: float, preferences: Preferences) -> tuple[float, float, str, str]:
+    return screen * preferences.scale, preferences.font_size, preferences.look, preferences.language
 
 
 def _lay_kept(desk: Desk) -> tuple[str, ...]:
@@ -255,8 +259,7 @@ class Window:
 
     def _panels(self) -> None:
         preferences = self.desk.preferred.now
-        told = self._screen_scale * preferences.scale, preferences.font_size, preferences.language
-        if told != self._look:
+        if _wished(self._screen_scale, preferences) != self._look:
             self._look = _look(self._screen_scale, preferences)
             self.desk.scale = self._look[0]
         backends.opengl3_new_frame()

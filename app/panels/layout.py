@@ -130,7 +130,7 @@ class Layout:
         trace.tell_places()
 
     def _open_strip(self, desk: Desk, box: tuple[float, float, float, float]) -> None:
-        imgui.push_style_color(imgui.Col_.window_bg, theme.vec((0.15,) * 3))
+        imgui.push_style_color(imgui.Col_.window_bg, theme.vec(theme.look.popup))
         if self._begin("strip", box):
             with self._guard.spare_drawing("drawing the strip"):
                 self.strip.draw(desk)
@@ -196,7 +196,7 @@ class Layout:
 
     def _status(self, desk: Desk, pointer_name: str) -> float:
         height = imgui.get_font_size() + 11 * desk.scale
-        imgui.push_style_color(imgui.Col_.window_bg, theme.vec(theme.SHADE))
+        imgui.push_style_color(imgui.Col_.window_bg, theme.vec(theme.look.shade))
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(10 * desk.scale, 5 * desk.scale))
         imgui.push_style_var(imgui.StyleVar_.window_min_size, ImVec2(1, 1))
         if self._begin(

@@ -41,7 +41,7 @@ def draw(desk: Desk, right: float) -> None:
     named = [ACTIONS[offer].title for offer in _possible(desk, notice)] + (["Details"] if notice.lines else [])
     taken = sum(said.calc_text_size(title).x + 2 * style.frame_padding.x + 0.5 * em for title in named) + 2 * em
     text = _fitted(say(f"{icons.WARNING}  {notice.short}"), right - imgui.get_cursor_pos_x() - taken)
-    said.text_colored(theme.vec(theme.WARN if notice.bad else theme.TEXT), text)
+    said.text_colored(theme.vec(theme.look.warn if notice.bad else theme.look.text), text)
     w.named(notice.short)
     w.tooltip(notice.text)
     if notice.lines:
@@ -105,7 +105,7 @@ def _entry(desk: Desk, notice: Notice) -> None:
     """Draws a notice in the list: its line, what closes it at the right end, all else that there is to read."""
     right = imgui.get_window_width() - imgui.get_style().window_padding.x - imgui.get_text_line_height()
     imgui.push_text_wrap_pos(right - imgui.get_font_size())
-    said.text_colored(theme.vec(theme.WARN if notice.bad else theme.TEXT), notice.text)
+    said.text_colored(theme.vec(theme.look.warn if notice.bad else theme.look.text), notice.text)
     w.named(notice.text)
     imgui.same_line(right)
     _close(desk, notice)

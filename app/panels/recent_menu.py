@@ -43,7 +43,7 @@ def draw_recent(desk: Desk, path: Path, ident: str, wide: float) -> bool:
     draw_file_picture(desk, path, corner, ImVec2(1.3 * tall, tall))
     painter, left = imgui.get_window_draw_list(), corner.x + 1.3 * tall + 0.8 * em
     room = corner.x + wide - left - 0.3 * em
-    painter.add_text(ImVec2(left, corner.y + 0.35 * em), theme.packed(theme.TEXT), shortened(path.name, room))
+    painter.add_text(ImVec2(left, corner.y + 0.35 * em), theme.packed(theme.look.text), shortened(path.name, room))
     where = shortened(home_text(path.parent), room)
-    said.add_text(painter, ImVec2(left, corner.y + 1.75 * em), theme.packed(theme.QUIET), where)
+    said.add_text(painter, ImVec2(left, corner.y + 1.75 * em), theme.packed(theme.look.quiet), where)
     return pressed

@@ -45,7 +45,7 @@ def draw(desk: Desk, right: float) -> float:
     end = ImVec2(corner.x + right - left, corner.y + line)
     painter = imgui.get_window_draw_list()
     low, high = ImVec2(corner.x - pad, corner.y - 2 * desk.scale), ImVec2(end.x, end.y + 2 * desk.scale)
-    painter.add_rect_filled(low, high, theme.packed(theme.ACCENT_SOFT), 4 * desk.scale)
+    painter.add_rect_filled(low, high, theme.packed(theme.look.accent_soft), 4 * desk.scale)
     said.text_unformatted(label)
     w.named(text)
     w.tooltip(_hint(ants))

@@ -139,7 +139,7 @@ def _message(desk: Desk, right: float) -> None:
     pad = imgui.get_font_size() + 2 * imgui.get_style().frame_padding.x
     buttons = sum(said.calc_text_size(ACTIONS[offer].title).x + pad for offer in offers)
     shown = ended(say(sign + text), right - imgui.get_cursor_pos_x() - buttons)
-    said.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), shown)
+    said.text_colored(theme.vec(theme.look.warn if bad else theme.look.text), shown)
     w.named(text)
     if shown != say(sign + text):
         w.tooltip(text)
@@ -166,7 +166,7 @@ def _button(desk: Desk, offer: str) -> None:
 def _underline() -> None:
     """Shows that the item just drawn can be clicked."""
     corner, end = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-    imgui.get_window_draw_list().add_line(ImVec2(corner.x, end.y), end, theme.packed(theme.TEXT))
+    imgui.get_window_draw_list().add_line(ImVec2(corner.x, end.y), end, theme.packed(theme.look.text))
 
 
 def _work(desk: Desk) -> str:

@@ -74,7 +74,7 @@ class StripPanel:
         """Into the present window."""
         row, panel = STRIPS[desk.strip], self._panels[desk.strip]
         imgui.align_text_to_frame_padding()
-        said.text_colored(theme.vec((0.78,) * 3), f"{row.icon}  {row.title}")
+        said.text_colored(theme.vec(theme.look.soft), f"{row.icon}  {row.title}")
         imgui.same_line(0, 14 * desk.scale)
         imgui.align_text_to_frame_padding()
         said.text_disabled(panel.hint(desk) or row.hint)

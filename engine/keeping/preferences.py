@@ -21,6 +21,8 @@ LARGEST_FILE = 1 << 20  # bytes
 
 PressureKnots = tuple[tuple[float, float], ...]
 MOST_KNOTS = 64
+LOOK_NAMES = "dark", "light", "contrast"
+PEN_DRIVERS = "ink", "wintab"  # of which a system may have but one
 _MOST_LETTERS = 4096
 _STRAIGHT: PressureKnots = ((0.0, 0.0), (1.0, 1.0))  # what changes nothing
 
@@ -33,7 +35,8 @@ class Preferences:
     they stay; `constant`: the pressure of every pen, 0 where it is felt; `ignore_touch`: fingers do nothing; `scale` of
     all that the window shows beside the canvas, in that of the screen; `font_size` in points; `profile`: a file's, by
     which the screen shows colours, "screen" for what the system has, "none"; `proof`: the file of one that is imitated
-    on a key; `language`: that of the window, nothing for the system's."""
+    on a key; `language`: that of the window, nothing for the system's; `look`: the window's colours, one of LOOK_NAMES;
+    `driver`: which of the system's ways pens are heard by, one of PEN_DRIVERS."""
 
     versions: int = 3
     gigabytes: float = 5.0
@@ -47,6 +50,8 @@ class Preferences:
     profile: str = "screen"
     proof: str = ""
     language: str = ""
+    look: str = "dark"
+    driver: str = "ink"
 
 
 class Row(NamedTuple):
@@ -116,9 +121,25 @@ class Named(NamedTuple):
         return self.put(found, value) if good and isinstance(value, str) else None
 
 
+class Choice(NamedTuple):
+    """What one line of the file chooses of `names`."""
+
+    names: tuple[str, ...]
+    put: Callable[[Preferences, str], Preferences]
+
+    @property
+    def expected(self) -> str:
+        """Says what the value is to be."""
+        return f"one of {', '.join(self.names)}"
+
+    def taken(self, found: Preferences, value: object) -> Preferences | None:
+        """Returns the preferences with a value, None where that is none."""
+        return self.put(found, value) if isinstance(value, str) and value in self.names else None
+
+
 _A_PROFILE = f"the path of an ICC profile, at most {_MOST_LETTERS} letters"
 MEGABYTES = Row(0, 1e6, True, lambda told, number: replace(told, megabytes=int(number)))
-SETTINGS: dict[tuple[str, str], Row | Switch | Curve | Named] = {
+SETTINGS: dict[tuple[str, str], Row | Switch | Curve | Named | Choice] = {
     ("kept", "versions"): Row(1, 100, True, lambda told, number: replace(told, versions=int(number))),
     ("kept", "gigabytes"): Row(0.0, 1e6, False, lambda told, number: replace(told, gigabytes=number)),
     ("kept", "part_of_free"): Row(0.0, 1.0, False, lambda told, number: replace(told, part_of_free=number)),
@@ -127,6 +148,8 @@ SETTINGS: dict[tuple[str, str], Row | Switch | Curve | Named] = {
     ("pen", "constant"): Row(0.0, 1.0, False, lambda told, number: replace(told, constant=number)),
     ("pen", "ignore_touch"): Switch(lambda told, on: replace(told, ignore_touch=on)),
     ("display", "scale"): Row(0.75, 3.0, False, lambda told, number: replace(told, scale=number)),
+    ("display", "look"): Choice(LOOK_NAMES, lambda told, name: replace(told, look=name)),
+    ("pen", "driver"): Choice(PEN_DRIVERS, lambda told, name: replace(told, driver=name)),
     ("display", "font_size"): Row(12.0, 20.0, False, lambda told, number: replace(told, font_size=number)),
     ("display", "profile"): Named(
         lambda told, path: replace(told, profile=path or "none"), f'"screen", "none" or {_A_PROFILE}'

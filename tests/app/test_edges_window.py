@@ -27,7 +27,7 @@ def scaled():
 def test_a_stroke_begins_on_the_canvas_and_nowhere_on_a_panel(program, scaled):
     app = program(on=scaled)
     empty = app.canvas()
-    grey = app.screen()[400, 640:] == round(255 * theme.PANEL[0])
+    grey = app.screen()[400, 640:] == round(255 * theme.look.panel[0])
     panel = 640 + int(np.flatnonzero(grey.all(axis=-1))[0])  # the first pixel of the right one
     assert 1080 < panel < 1100
     app.stroke((panel, 400), (700, 400), (600, 420))

@@ -49,7 +49,7 @@ class DockEdge:
         end = corner + size
         if edge.lined:
             y = round((corner.y + end.y) / 2)
-            painter.add_line(ImVec2(corner.x, y), ImVec2(end.x, y), theme.packed(theme.LINE), desk.scale)
+            painter.add_line(ImVec2(corner.x, y), ImVec2(end.x, y), theme.packed(theme.look.line), desk.scale)
         if edge.still:
             return None
         imgui.invisible_button(edge.name, size)
@@ -60,7 +60,7 @@ class DockEdge:
         held = imgui.is_item_active()
         if imgui.is_item_hovered() or held:
             imgui.set_mouse_cursor(imgui.MouseCursor_.resize_ns if edge.upright else imgui.MouseCursor_.resize_ew)
-            painter.add_rect_filled(corner, end, theme.packed(theme.ACCENT, 0.9 if held else 0.5))
+            painter.add_rect_filled(corner, end, theme.packed(theme.look.accent, 0.9 if held else 0.5))
         if not held:
             return None
         drag = imgui.get_mouse_drag_delta(imgui.MouseButton_.left, 0.0)

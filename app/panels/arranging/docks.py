@@ -175,7 +175,7 @@ class Docks:
         """Shows where a panel that is dragged would lie, and lays it there when it is let go."""
         drop = self._drop(desk, carried.name, top, widths)
         corner = imgui.get_io().mouse_pos - carried.at
-        painter, lit = imgui.get_foreground_draw_list(), theme.packed(theme.ACCENT)
+        painter, lit = imgui.get_foreground_draw_list(), theme.packed(theme.look.accent)
         if drop is None:
             painter.add_rect(corner, corner + carried.size, lit, 4 * desk.scale, thickness=2 * desk.scale)
         else:

@@ -82,7 +82,7 @@ class BrushPanel:
         w.named("tools grip")
         w.tooltip("Drag the tools elsewhere; right click: more")
         painter, y = imgui.get_window_draw_list(), corner.y + 4 * desk.scale
-        colour = theme.packed(theme.QUIET if imgui.is_item_hovered() else theme.RAISED)
+        colour = theme.packed(theme.look.quiet if imgui.is_item_hovered() else theme.look.raised)
         left, right = corner.x + 0.42 * wide, corner.x + 0.58 * wide
         painter.add_line(ImVec2(left, y), ImVec2(right, y), colour, 2 * desk.scale)
         self._tools(desk)
@@ -121,7 +121,7 @@ class BrushPanel:
         imgui.dummy(ImVec2(width, height))
         w.tooltip("A stroke of this brush")
         end, painter = ImVec2(corner.x + width, corner.y + height), imgui.get_window_draw_list()
-        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), 4 * desk.scale)
+        painter.add_rect_filled(corner, end, theme.packed(theme.look.field), 4 * desk.scale)
         picture = desk.pictures.get("brush")
         if picture is not None:
             white = theme.packed((1.0, 1.0, 1.0))
@@ -157,7 +157,7 @@ class BrushPanel:
             if i:
                 imgui.same_line(0, gap)
             on = desk.hand.brush.row is row
-            imgui.push_style_color(imgui.Col_.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
+            imgui.push_style_color(imgui.Col_.button, theme.vec(theme.look.accent_soft if on else theme.look.raised))
             if w.text_button(row.label, row.tooltip, width=words[i] + spare):
                 go_on_with_brush(desk.hand)
                 if row.grows and desk.hand.brush.example is None:

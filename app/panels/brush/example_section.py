@@ -75,7 +75,7 @@ def _shown(desk: Desk) -> None:
     if pressed:
         desk.strip, desk.examples.tab = "examples", "palette"
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + side)
-    painter.add_rect_filled(corner, end, theme.packed(theme.HOVER if hovered else theme.RAISED), 4 * scale)
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.hover if hovered else theme.look.raised), 4 * scale)
     picture = desk.pictures.get(thumbnails.ident(entry)) if entry is not None and ours else None
     if picture is not None:
         square = ImVec2(corner.x + side, corner.y + side)
@@ -84,7 +84,7 @@ def _shown(desk: Desk) -> None:
     text = entry.title if entry is not None and ours else desk.hand.brush.example or "Choose an example"
     at = ImVec2(corner.x + side + 9 * scale, corner.y + (side - imgui.get_font_size()) / 2)
     painter.push_clip_rect(corner, ImVec2(end.x - 24 * scale, end.y), True)
-    said.add_text(painter, at, theme.packed(theme.TEXT), text)
+    said.add_text(painter, at, theme.packed(theme.look.text), text)
     painter.pop_clip_rect()
     sign = ImVec2(end.x - 21 * scale, corner.y + (side - imgui.get_font_size()) / 2)
-    said.add_text(painter, sign, theme.packed(theme.QUIET), icons.GRID)
+    said.add_text(painter, sign, theme.packed(theme.look.quiet), icons.GRID)

@@ -30,7 +30,7 @@ def draw(desk: Desk, side: float) -> None:
         imgui.open_popup("moving tools")
     long, painter = _SIGN * side, imgui.get_window_draw_list()
     corners = ImVec2(end.x, end.y - long), end, ImVec2(end.x - long, end.y)
-    painter.add_triangle_filled(*corners, theme.packed(theme.QUIET))
+    painter.add_triangle_filled(*corners, theme.packed(theme.look.quiet))
     if imgui.begin_popup("moving tools"):
         _list(desk)
         imgui.end_popup()

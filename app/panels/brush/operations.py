@@ -208,7 +208,7 @@ def _mistake(formula: str, error: FormulaError) -> None:
     before, there, behind = around(formula, error.column)
     corner, painter = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     x = corner.x
-    warn, quiet, height = theme.packed(theme.WARN), theme.packed((0.7,) * 3), imgui.get_text_line_height()
+    warn, quiet, height = theme.packed(theme.look.warn), theme.packed(theme.look.soft), imgui.get_text_line_height()
     for text, colour in ((before, quiet), (there, warn), (behind, quiet)):
         width = max(said.calc_text_size(text).x, 4.0)
         said.add_text(painter, ImVec2(x, corner.y), colour, text)
@@ -218,7 +218,7 @@ def _mistake(formula: str, error: FormulaError) -> None:
     imgui.dummy(ImVec2(1, height + 2))
     wanted = f"Column {error.column}: found {error.found}, expected {error.expected.partition(':')[0]}"
     imgui.push_text_wrap_pos(0.0)
-    said.text_colored(theme.vec(theme.WARN), wanted)
+    said.text_colored(theme.vec(theme.look.warn), wanted)
     imgui.pop_text_wrap_pos()
     w.tooltip(f"Found {error.found}, expected {error.expected}")
 

@@ -78,7 +78,7 @@ def _favourite(desk: Desk, digit: int, preset: Preset) -> bool:
     painter, painted = imgui.get_window_draw_list(), f"preset {preset.name}" in desk.pictures
     at = ImVec2(corner.x + 4 * desk.scale, corner.y + 1 * desk.scale)
     painter.push_clip_rect(corner, end, True)
-    grey = theme.packed((0.35,) * 3 if painted else (0.72,) * 3)
+    grey = theme.packed((0.35,) * 3 if painted else theme.look.soft)
     said.add_text(painter, at, grey, str(digit) if painted else f"{digit}\n{preset.name}")
     painter.pop_clip_rect()
     return pressed

@@ -13,7 +13,7 @@ THUMB = (104, 44)  # points
 
 def draw_picture(desk: Desk, preset: Preset, corner: ImVec2, end: ImVec2, *, lit: bool) -> None:
     """Draws it within a frame, which is lit for the brush that is chosen, or pointed at."""
-    ground = theme.packed(theme.ACCENT_SOFT if lit else (0.19,) * 3)
+    ground = theme.packed(theme.look.accent_soft if lit else theme.look.card)
     imgui.get_window_draw_list().add_rect_filled(corner, end, ground, 4 * desk.scale)
     draw_stroke(desk, preset, corner, end)
 

@@ -36,13 +36,13 @@ def draw_tile(desk: Desk, preset: Preset, wide: float) -> tuple[bool, bool]:
     w.tooltip(f"{preset.name}{keys}\nShift keeps the present size; the star makes it a favourite\nRight click for more")
     draw_menu(desk, preset)
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
-    grey = theme.ACCENT_SOFT if chosen else (0.21,) * 3 if hovered else (0.19,) * 3
+    grey = theme.look.accent_soft if chosen else theme.look.card_lit if hovered else theme.look.card
     painter.add_rect_filled(corner, end, theme.packed(grey), 4 * desk.scale)
     bottom = corner.y + wide * THUMB[1] / THUMB[0]
     draw_stroke(desk, preset, corner, ImVec2(end.x, bottom + 2 * desk.scale))
     if digit or hovered:
         _star(desk, spot, digit)
-    _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.TEXT if chosen else (0.72,) * 3)
+    _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.look.text if chosen else theme.look.soft)
     return taken, True
 
 
@@ -57,10 +57,13 @@ def _within(spot: tuple[float, float, float]) -> bool:
     return left <= at.x < left + side and top <= at.y < top + side
 
 
+_FAVOURITE = 0.22, 0.42, 0.66  # on the white of pictures, whatever the look
+
+
 def _star(desk: Desk, spot: tuple[float, float, float], digit: int) -> None:
     """Draws the star of a favourite, with its digit; that of another brush, which is pointed at, faintly."""
     (left, top, side), painter, size = spot, imgui.get_window_draw_list(), imgui.get_font_size()
-    grey = theme.ACCENT if digit else (0.55,) * 3 if _within(spot) else (0.75,) * 3
+    grey = _FAVOURITE if digit else (0.45,) * 3 if _within(spot) else (0.57,) * 3
     said.add_text(painter, ImVec2(left + (side - size) / 2, top + (side - size) / 2), theme.packed(grey), icons.STAR)
     if digit:
         at = ImVec2(left + (side - said.calc_text_size(str(digit)).x * 0.7) / 2, top + 0.3 * size)

@@ -63,20 +63,20 @@ def _way(desk: Desk, name: str, wide: float) -> bool:
     pressed = imgui.invisible_button(f"steady {name}", ImVec2(wide, tall))
     w.named(STEADIED[name].label)
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
-    ground = theme.ACCENT_SOFT if chosen else theme.HOVER if imgui.is_item_hovered() else theme.RAISED
+    ground = theme.look.accent_soft if chosen else theme.look.hover if imgui.is_item_hovered() else theme.look.raised
     painter.add_rect_filled(corner, end, theme.packed(ground), imgui.get_style().frame_rounding)
     shaky, steadied = _drawn(name)
     inset, ends = 5 * desk.scale, list[ImVec2]()
-    for line, grey, alpha, width in ((shaky, 0.75, 0.4, 1.0), (steadied, 1.0, 0.95, 1.8)):
+    for line, tone, alpha, width in ((shaky, theme.look.soft, 0.5, 1.0), (steadied, theme.look.text, 0.95, 1.8)):
         points = [
             ImVec2(corner.x + inset + x * (wide - 2 * inset), corner.y + inset + y * (tall - 2 * inset))
             for x, y in line
         ]
-        painter.add_polyline([*points], theme.packed((grey,) * 3, alpha), width * desk.scale, 0)
+        painter.add_polyline([*points], theme.packed(tone, alpha), width * desk.scale, 0)
         ends.append(points[-1])
     if name == ON_ROPE:
-        painter.add_line(ends[1], ends[0], theme.packed(theme.ACCENT), 1.5 * desk.scale)
-        painter.add_circle_filled(ends[0], 2.5 * desk.scale, theme.packed(theme.ACCENT), 16)
+        painter.add_line(ends[1], ends[0], theme.packed(theme.look.accent), 1.5 * desk.scale)
+        painter.add_circle_filled(ends[0], 2.5 * desk.scale, theme.packed(theme.look.accent), 16)
     return pressed
 
 

@@ -38,7 +38,7 @@ def draw_disc(circle: Round, light: float, scale: float) -> None:
     """Draws all colours of a lightness into the present window."""
     _draw(circle, _disc(round(light, 2)))
     painter, rim = imgui.get_window_draw_list(), ImVec2(circle.x, circle.y)
-    painter.add_circle(rim, circle.radius + 0.3 * scale, theme.packed(theme.PANEL), 0, 1.6 * scale)
+    painter.add_circle(rim, circle.radius + 0.3 * scale, theme.packed(theme.look.panel), 0, 1.6 * scale)
 
 
 def draw_mask(circle: Round, corners: Corners, scale: float) -> None:

@@ -12,6 +12,7 @@ from app.desk.colours import MOST_CHROMA, RGB, from_hex, from_oklch, to_hex, to_
 from app.desk.desk import Desk
 from app.desk.holding.gamut_mask import held_in
 from app.panels.colour.colour_wheel import ColourWheel, wheel_sizes
+from app.panels.colour.gradient_slider import gradient_slider
 from app.panels.colour.palette_section import draw_palette
 from app.panels.colour.wheel_sides import draw_left, draw_right
 from app.panels.controls import widgets as w
@@ -81,7 +82,7 @@ class ColourPanel:
         parts = [light, chroma / MOST_CHROMA, hue / 360]
         for i, (name, value, hint) in enumerate(rows):
             stops = _stops(i, round(light, 3), round(chroma, 3), round(hue, 1))
-            changed, new_value = w.gradient_slider(name, max(0.0, min(1.0, value)), stops, f"{name}: {hint}")
+            changed, new_value = gradient_slider(name, max(0.0, min(1.0, value)), stops, f"{name}: {hint}")
             if changed:
                 parts[i] = new_value
                 self._pick(desk, (parts[0], parts[1] * MOST_CHROMA, parts[2] * 360))
@@ -130,7 +131,7 @@ class ColourPanel:
                 corner = imgui.get_cursor_screen_pos()
                 imgui.dummy(ImVec2(side, side))
                 end = ImVec2(corner.x + side, corner.y + side)
-                imgui.get_window_draw_list().add_rect_filled(corner, end, theme.packed((0.14,) * 3), 2.0)
+                imgui.get_window_draw_list().add_rect_filled(corner, end, theme.packed(theme.look.grid), 2.0)
         imgui.pop_style_var(2)
 
 

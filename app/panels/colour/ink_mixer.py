@@ -81,7 +81,7 @@ class InkPanel:
         for i, name in enumerate(("ink", "ink near")):
             left = corner.x + i * (width / 2 + desk.scale)
             end = ImVec2(left + width / 2 - desk.scale, corner.y + height)
-            painter.add_rect_filled(ImVec2(left, corner.y), end, theme.packed(theme.FIELD), 4 * desk.scale)
+            painter.add_rect_filled(ImVec2(left, corner.y), end, theme.packed(theme.look.field), 4 * desk.scale)
             if name in desk.pictures:
                 painter.add_image_rounded(
                     desk.pictures[name],

@@ -57,16 +57,16 @@ class CurveEditor:
         w.tooltip(hint)
         painter, pad = imgui.get_window_draw_list(), imgui.get_style().frame_padding
         end = ImVec2(corner.x + width, corner.y + height)
-        ground = theme.HOVER if hovered else theme.FIELD
+        ground = theme.look.hover if hovered else theme.look.field
         painter.add_rect_filled(corner, end, theme.packed(ground), imgui.get_style().frame_rounding)
         said.add_text(
-            painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.partition("##")[0]
+            painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed(theme.look.soft), label.partition("##")[0]
         )
         picture = ImVec2(end.x - height * 1.5 - 2, corner.y + 3), ImVec2(end.x - 4, end.y - 3)
         plot(*picture, self._line(shape_of(curve, rows)), 1.5)
         text = title_of(curve, rows)
         at = ImVec2(picture[0].x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
-        said.add_text(painter, at, theme.packed(theme.TEXT if curve is not None else theme.QUIET), text)
+        said.add_text(painter, at, theme.packed(theme.look.text if curve is not None else theme.look.quiet), text)
         _beside(corner, end)
         return self._popup(label, curve, rows)
 
@@ -160,8 +160,8 @@ class CurveEditor:
         for i, (x, y) in enumerate(held):
             place = ImVec2(corner.x + x * side, corner.y + (1.0 - y) * side)
             lit = i == self._held or (self._held is None and i == near)
-            painter.add_circle_filled(place, 5.5, theme.packed(theme.FIELD), 16)
-            painter.add_circle_filled(place, 4.0, theme.packed((0.95,) * 3 if lit else theme.ACCENT), 16)
+            painter.add_circle_filled(place, 5.5, theme.packed(theme.look.field), 16)
+            painter.add_circle_filled(place, 4.0, theme.packed(theme.look.text if lit else theme.look.accent), 16)
 
 
 def _beside(corner: ImVec2, end: ImVec2) -> None:
@@ -178,24 +178,24 @@ def _beside(corner: ImVec2, end: ImVec2) -> None:
 def plot(corner: ImVec2, end: ImVec2, shape: Knots, thick: float, grid: bool = False) -> None:
     """Draws the picture of a curve, with the ground under it a little lighter."""
     painter, wide, tall = imgui.get_window_draw_list(), end.x - corner.x, end.y - corner.y
-    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), 3.0)
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), 3.0)
     painter.push_clip_rect(corner, end, True)
     if grid:
         for i in range(1, LINES):
-            x, y, faint = corner.x + wide * i / LINES, corner.y + tall * i / LINES, theme.packed((0.19,) * 3)
+            x, y, faint = corner.x + wide * i / LINES, corner.y + tall * i / LINES, theme.packed(theme.look.grid)
             painter.add_line(ImVec2(x, corner.y), ImVec2(x, end.y), faint)
             painter.add_line(ImVec2(corner.x, y), ImVec2(end.x, y), faint)
-        painter.add_line(ImVec2(corner.x, end.y), ImVec2(end.x, corner.y), theme.packed((0.28,) * 3))
+        painter.add_line(ImVec2(corner.x, end.y), ImVec2(end.x, corner.y), theme.packed(theme.look.border))
     inset = min(2.0, thick)
     points: Any = [
         ImVec2(corner.x + wide * min(max(x, 0.0), 1.0), corner.y + inset + (tall - 2 * inset) * (1.0 - min(y, 1.0)))
         for x, y in ((0.0, shape[0][1]), *shape, (1.0, shape[-1][1]))
     ]
-    under = theme.packed(theme.ACCENT_SOFT, 0.35)
+    under = theme.packed(theme.look.accent_soft, 0.35)
     for a, b in pairwise(points):
         if b.x > a.x:
             painter.add_quad_filled(ImVec2(a.x, end.y), a, b, ImVec2(b.x, end.y), under)
-    painter.add_polyline(points, theme.packed(theme.ACCENT), thickness=thick, flags=0)
+    painter.add_polyline(points, theme.packed(theme.look.accent), thickness=thick, flags=0)
     painter.pop_clip_rect()
 
 

@@ -91,7 +91,7 @@ def _bar(stops: Stops, corner: ImVec2, end: ImVec2) -> None:
 def _mark(at: ImVec2, radius: float, colour: str, chosen: bool) -> None:
     """Draws a drop that points up at its place."""
     painter = imgui.get_window_draw_list()
-    rim = theme.packed((0.95,) * 3 if chosen else (0.5,) * 3)
+    rim = theme.packed(theme.look.text if chosen else theme.look.edge)
     middle = ImVec2(at.x, at.y + radius * 1.35)
     left, right = (
         ImVec2(at.x - radius * 0.7, middle.y - radius * 0.6),

@@ -101,13 +101,13 @@ def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
         return pressed
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
     shown = _picture(desk, name)
-    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), 3 * scale)
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), 3 * scale)
     if shown is not None:
         zero, one, white = ImVec2(0, 0), ImVec2(1, 1), theme.packed((1.0, 1.0, 1.0))
         painter.add_image_rounded(shown, corner, end, zero, one, white, 3 * scale)
     at = ImVec2(end.x + 7 * scale, corner.y + (tall - imgui.get_font_size()) / 2)
     painter.push_clip_rect(corner, ImVec2(end.x + NAME * scale, end.y), True)
-    said.add_text(painter, at, theme.packed(theme.TEXT), label)
+    said.add_text(painter, at, theme.packed(theme.look.text), label)
     painter.pop_clip_rect()
     return pressed
 

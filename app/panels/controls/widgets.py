@@ -64,8 +64,10 @@ def icon_button(
     side = size or imgui.get_frame_height()
     imgui.begin_disabled(not enabled)
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(0, 0))
-    imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED, 1.0 if on else 0.0))
-    imgui.push_style_color(Col.text, theme.vec(theme.TEXT if on or enabled else theme.QUIET))
+    imgui.push_style_color(
+        Col.button, theme.vec(theme.look.accent_soft if on else theme.look.raised, 1.0 if on else 0.0)
+    )
+    imgui.push_style_color(Col.text, theme.vec(theme.look.text if on or enabled else theme.look.quiet))
     pressed = imgui.button(f"{icon}##{name}", ImVec2(side, side))
     named(name)
     imgui.pop_style_color(2)
@@ -94,15 +96,14 @@ def lines_button(lines: Sequence[str], hint: str, width: float) -> bool:
     corner, painter = imgui.get_item_rect_min(), imgui.get_window_draw_list()
     for i, text in enumerate(lines):
         left = corner.x + (width - said.calc_text_size(text).x) / 2
-        said.add_text(painter, ImVec2(round(left), corner.y + padding + i * line), theme.packed(theme.TEXT), text)
+        said.add_text(painter, ImVec2(round(left), corner.y + padding + i * line), theme.packed(theme.look.text), text)
     return pressed
 
 
 def accent_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
     """Draws a button that stands out among others; tells whether it was pressed."""
-    imgui.push_style_color(Col.button, theme.vec(theme.ACCENT, 0.45))
-    imgui.push_style_color(Col.button_hovered, theme.vec(theme.ACCENT, 0.6))
-    imgui.push_style_color(Col.button_active, theme.vec(theme.ACCENT, 0.75))
+    for name, alpha in ((Col.button, 1.0), (Col.button_hovered, 0.75), (Col.button_active, 0.5)):
+        imgui.push_style_color(name, theme.vec(theme.look.accent_soft, alpha))
     pressed = text_button(label, hint, enabled=enabled, width=width)
     imgui.pop_style_color(3)
     return pressed
@@ -127,10 +128,10 @@ def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = F
     if shared:
         imgui.set_next_item_allow_overlap()
     flags = imgui.TreeNodeFlags_.span_avail_width | (imgui.TreeNodeFlags_.default_open if opened else 0)
-    imgui.push_style_color(Col.header, theme.vec(theme.PANEL, 0.0))
-    imgui.push_style_color(Col.header_hovered, theme.vec(theme.RAISED, 0.5))
-    imgui.push_style_color(Col.header_active, theme.vec(theme.RAISED))
-    imgui.push_style_color(Col.text, theme.vec((0.70,) * 3))
+    imgui.push_style_color(Col.header, theme.vec(theme.look.panel, 0.0))
+    imgui.push_style_color(Col.header_hovered, theme.vec(theme.look.raised, 0.5))
+    imgui.push_style_color(Col.header_active, theme.vec(theme.look.raised))
+    imgui.push_style_color(Col.text, theme.vec(theme.look.soft))
     shown = folding_header(title, flags)
     imgui.pop_style_color(4)
     named(title)
@@ -150,9 +151,9 @@ def switched_section(title: str, hint: str, on: bool, *, enabled: bool = True) -
     over = at.x - 4 <= mouse.x < right and abs(mouse.y - at.y - tall / 2) <= line / 2 and imgui.is_window_hovered()
     pressed = over and enabled and imgui.is_mouse_clicked(imgui.MouseButton_.left)
     on = on != pressed
-    imgui.push_style_color(Col.header_hovered, theme.vec(theme.RAISED, 0.5))
-    imgui.push_style_color(Col.header_active, theme.vec(theme.RAISED))
-    imgui.push_style_color(Col.text, theme.vec(theme.TEXT if on else (0.70,) * 3))
+    imgui.push_style_color(Col.header_hovered, theme.vec(theme.look.raised, 0.5))
+    imgui.push_style_color(Col.header_active, theme.vec(theme.look.raised))
+    imgui.push_style_color(Col.text, theme.vec(theme.look.text if on else theme.look.soft))
     shown = folding_header(title, turned=on if pressed else None)
     imgui.pop_style_color(3)
     named(title)
@@ -164,10 +165,10 @@ def switched_section(title: str, hint: str, on: bool, *, enabled: bool = True) -
 def _switch(at: ImVec2, wide: float, tall: float, on: bool, over: bool) -> None:
     """Draws a pill whose knob lies left (off) or right (on)."""
     painter, radius = imgui.get_window_draw_list(), tall / 2
-    grey = theme.ACCENT_SOFT if on else theme.HOVER if over else theme.RAISED
+    grey = theme.look.accent_soft if on else theme.look.hover if over else theme.look.raised
     painter.add_rect_filled(at, ImVec2(at.x + wide, at.y + tall), theme.packed(grey), radius)
     x = at.x + wide - radius if on else at.x + radius
-    knob = theme.ACCENT if on else (0.45,) * 3
+    knob = theme.look.accent if on else theme.look.knob
     painter.add_circle_filled(ImVec2(x, at.y + radius), radius * 0.66, theme.packed(knob), 24)
 
 
@@ -182,10 +183,13 @@ def slider(
     part = _part(value, lo, hi, curved)
     painter, rounding = imgui.get_window_draw_list(), imgui.get_style().frame_rounding
     hovered = imgui.is_mouse_hovering_rect(corner, end) and imgui.is_window_hovered()
-    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), rounding)
     if part > 0.004:
         fill = ImVec2(corner.x + max(rounding, width * part), end.y)
-        painter.add_rect_filled(corner, fill, theme.packed((0.36,) * 3 if hovered else (0.305,) * 3), rounding)
+        shade = theme.look.filled_lit if hovered else theme.look.filled
+        painter.add_rect_filled(corner, fill, theme.packed(shade), rounding)
+        wide = 2.0 * imgui.get_style().font_scale_dpi
+        painter.add_rect_filled(ImVec2(fill.x - wide, corner.y), fill, theme.packed(theme.look.grab), wide / 2)
     typing = imgui.internal.temp_input_is_active(imgui.get_id(f"##{label}"))
     _hidden_frame(True, typing)
     imgui.set_next_item_width(width)
@@ -200,10 +204,10 @@ def slider(
         pad = imgui.get_style().frame_padding
         text = _number(form, value)
         said.add_text(
-            painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.split("##")[0]
+            painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed(theme.look.soft), label.split("##")[0]
         )
         at = ImVec2(end.x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
-        said.add_text(painter, at, theme.packed(theme.TEXT), text)
+        said.add_text(painter, at, theme.packed(theme.look.text), text)
     tooltip(hint)
     return changed, max(lo, min(hi, value)) if changed else value
 
@@ -219,8 +223,8 @@ def _hidden_frame(on: bool, typing: bool) -> None:
         imgui.pop_style_color(len(names) + 1)
         return
     for name in names:
-        imgui.push_style_color(name, theme.vec(theme.FIELD, 0.0))
-    imgui.push_style_color(Col.text, theme.vec(theme.TEXT, 1.0 if typing else 0.0))
+        imgui.push_style_color(name, theme.vec(theme.look.field, 0.0))
+    imgui.push_style_color(Col.text, theme.vec(theme.look.text, 1.0 if typing else 0.0))
 
 
 def _part(value: float, lo: float, hi: float, curved: bool) -> float:
@@ -245,43 +249,14 @@ def stepper(label: str, value: int, bounds: tuple[int, int], hint: str) -> tuple
     tooltip(hint)
     painter, pad = imgui.get_window_draw_list(), imgui.get_style().frame_padding
     end, text = ImVec2(corner.x + wide, corner.y + side), str(value).replace("-", "−")
-    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), imgui.get_style().frame_rounding)
-    said.add_text(painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label)
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), imgui.get_style().frame_rounding)
+    said.add_text(painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed(theme.look.soft), label)
     at = ImVec2(end.x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
-    said.add_text(painter, at, theme.packed(theme.TEXT), text)
+    said.add_text(painter, at, theme.packed(theme.look.text), text)
     imgui.same_line(0, gap)
     if icon_button(f"{label} more", icons.ADD, hint, enabled=value < bounds[1], size=side):
         value += 1
     return value != before, value
-
-
-def gradient_slider(
-    label: str, value: float, stops: Sequence[tuple[float, float, float]], hint: str
-) -> tuple[bool, float]:
-    """Returns a bar of colours with a marker; value 0..1.  (changed, value)"""
-    width, height = imgui.get_content_region_avail().x, imgui.get_frame_height() * 0.72
-    corner = imgui.get_cursor_screen_pos()
-    imgui.invisible_button(label, ImVec2(width, height))
-    changed = imgui.is_item_active()
-    if changed:
-        value = max(0.0, min(1.0, (imgui.get_io().mouse_pos.x - corner.x) / width))
-    named(label)
-    tooltip(hint)
-    painter, n = imgui.get_window_draw_list(), len(stops) - 1
-    for i in range(n):
-        a, b = theme.packed(stops[i]), theme.packed(stops[i + 1])
-        left, right = corner.x + width * i / n, corner.x + width * (i + 1) / n
-        painter.add_rect_filled_multi_color(ImVec2(left, corner.y), ImVec2(right, corner.y + height), a, b, b, a)
-    x = corner.x + 3 + (width - 6) * value
-    for grow, grey in ((3.0, 0.0), (1.5, 1.0)):
-        painter.add_rect(
-            ImVec2(x - grow - 1, corner.y - grow + 1),
-            ImVec2(x + grow + 1, corner.y + height + grow - 1),
-            theme.packed((grey,) * 3, 0.9),
-            2.0,
-            thickness=1.5,
-        )
-    return changed, value
 
 
 def choice(
@@ -326,8 +301,11 @@ def swatch(name: str, rgb: tuple[float, float, float], hint: str, size: tuple[fl
 def tick(label: str, on: bool, hint: str) -> tuple[bool, bool]:
     """Returns a box to tick.  (changed, on)"""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(3, 3))
+    imgui.push_style_var(imgui.StyleVar_.frame_border_size, imgui.get_style().font_scale_dpi)
+    imgui.push_style_color(Col.border, theme.vec(theme.look.edge))
     changed, on = said.checkbox(label, on)
-    imgui.pop_style_var()
+    imgui.pop_style_color()
+    imgui.pop_style_var(2)
     named(label)
     tooltip(hint)
     return changed, on
@@ -342,7 +320,7 @@ def picture(shown: Any, size: tuple[float, float], hint: str, tile: float = 0.0,
     tooltip(hint)
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size[0], corner.y + size[1])
     rounding = imgui.get_style().frame_rounding
-    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), rounding)
     if shown is None:
         return corner
     white, zero, one = theme.packed((1.0, 1.0, 1.0)), ImVec2(0, 0), ImVec2(1, 1)
@@ -360,9 +338,9 @@ def picture(shown: Any, size: tuple[float, float], hint: str, tile: float = 0.0,
 
 def lit_button(label: str, hint: str, on: bool, width: float = 0.0) -> bool:
     """Returns a button with a text, lit while `on`."""
-    imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
+    imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft if on else theme.look.raised))
     if on:
-        imgui.push_style_color(Col.button_hovered, theme.vec(theme.ACCENT_SOFT))
+        imgui.push_style_color(Col.button_hovered, theme.vec(theme.look.accent_soft))
     pressed = text_button(label, hint, width=width)
     imgui.pop_style_color(1 + on)
     return pressed

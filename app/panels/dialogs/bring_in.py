@@ -126,4 +126,4 @@ class BringIn:
             return
         sign = said.calc_text_size(icons.IMAGE)
         middle = ImVec2(corner.x + (side - sign.x) / 2, corner.y + (side - sign.y) / 2)
-        said.add_text(painter, middle, theme.packed(theme.QUIET), icons.IMAGE)
+        said.add_text(painter, middle, theme.packed(theme.look.quiet), icons.IMAGE)

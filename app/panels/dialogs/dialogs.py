@@ -77,6 +77,7 @@ class Dialogs:
             return
         self._place(desk, dialog)
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
+        imgui.push_style_var(imgui.StyleVar_.window_border_size, imgui.get_style().popup_border_size)
         flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
         if said.begin_popup_modal(f"{dialog.title}###dialog", flags):
             # Escape closes a list or a colour that the dialog has opened first.
@@ -92,7 +93,7 @@ class Dialogs:
             imgui.end_popup()
         else:
             self._open = None
-        imgui.pop_style_var()
+        imgui.pop_style_var(2)
         imgui.pop_style_color()
         if self._open is None:
             desk.asked.shown = ""

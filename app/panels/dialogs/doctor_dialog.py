@@ -66,12 +66,12 @@ class DoctorDialog:
         clicked = usable and imgui.is_item_clicked()
         if best or (usable and imgui.is_item_hovered()):
             end = ImVec2(corner.x + side, corner.y + side)
-            colour = theme.packed(theme.ACCENT if best else theme.QUIET)
+            colour = theme.packed(theme.look.accent if best else theme.look.quiet)
             imgui.get_window_draw_list().add_rect(
                 corner, end, colour, imgui.get_style().frame_rounding, 2.5 * desk.scale
             )
         if best:
-            said.text_colored(theme.vec(theme.ACCENT), title)
+            said.text_colored(theme.vec(theme.look.accent), title)
         else:
             said.text_unformatted(title)
         said.text_disabled(below or "…")
@@ -83,7 +83,7 @@ class DoctorDialog:
         corner, line = imgui.get_cursor_pos(), imgui.get_text_line_height_with_spacing()
         imgui.push_text_wrap_pos(corner.x + wide)
         if scene is not None and scene.fault:
-            said.text_colored(theme.vec(theme.WARN), scene.fault)
+            said.text_colored(theme.vec(theme.look.warn), scene.fault)
         else:
             said.text_wrapped(scene.why if scene is not None and scene.why else "All makers are being tried…")
         imgui.pop_text_wrap_pos()

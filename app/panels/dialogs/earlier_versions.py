@@ -42,7 +42,7 @@ class EarlierVersions:
         pad = imgui.get_style().item_spacing.x
         card = ImVec2(side + 2 * pad, side + 3 * pad + 2 * imgui.get_text_line_height_with_spacing())
         bar = imgui.get_style().scrollbar_size
-        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
+        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.look.field))
         room = ImVec2(_CARDS * card.x + (_CARDS + 1) * pad, card.y + 2 * pad + bar)
         imgui.begin_child("versions", room, 0, imgui.WindowFlags_.horizontal_scrollbar)
         opened = self._cards(desk, card, side)
@@ -77,7 +77,7 @@ class EarlierVersions:
             return False
         for number, row in enumerate(self._rows):
             imgui.set_cursor_pos(ImVec2(pad + number * (card.x + pad), pad))
-            imgui.push_style_color(imgui.Col_.header_hovered, theme.vec(theme.RAISED, 0.45))
+            imgui.push_style_color(imgui.Col_.header_hovered, theme.vec(theme.look.raised, 0.45))
             if said.selectable(f"##{row.name}", False, _FLAGS, card)[0]:
                 self._chosen = number
                 opened = imgui.is_mouse_double_clicked(0)
@@ -87,7 +87,7 @@ class EarlierVersions:
             _contents(desk, self._found[0], row, (number, side))
             if number == self._chosen:
                 low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-                accent, rounding = theme.packed(theme.ACCENT), imgui.get_style().frame_rounding
+                accent, rounding = theme.packed(theme.look.accent), imgui.get_style().frame_rounding
                 imgui.get_window_draw_list().add_rect(low, high, accent, rounding, thickness=2 * desk.scale)
         desk.previews(self._found[0], self._rows, round(side))
         return opened
@@ -104,13 +104,13 @@ def _contents(desk: Desk, folder: Path, row: FileRow, place: tuple[int, float]) 
     if shown is None:
         wide = said.calc_text_size(icons.IMAGE)
         at = ImVec2(corner.x + (side - wide.x) / 2, corner.y + (side - wide.y) / 2)
-        said.add_text(painter, at, theme.packed(theme.QUIET), icons.IMAGE)
+        said.add_text(painter, at, theme.packed(theme.look.quiet), icons.IMAGE)
     else:
         painter.add_image(shown, corner, ImVec2(corner.x + side, corner.y + side))
     top = corner.y + side + pad
-    said.add_text(painter, ImVec2(corner.x, top), theme.packed(theme.TEXT), row.date)
+    said.add_text(painter, ImVec2(corner.x, top), theme.packed(theme.look.text), row.date)
     ago = "before that" if number else "before the last save"
-    said.add_text(painter, ImVec2(corner.x, top + line), theme.packed(theme.QUIET), ago)
+    said.add_text(painter, ImVec2(corner.x, top + line), theme.packed(theme.look.quiet), ago)
     size = size_text(row.size)
     right = corner.x + side - said.calc_text_size(size).x
-    said.add_text(painter, ImVec2(right, top + line), theme.packed(theme.QUIET), size)
+    said.add_text(painter, ImVec2(right, top + line), theme.packed(theme.look.quiet), size)

@@ -40,7 +40,7 @@ class ExportDialog:
         w.tooltip("Each level finer doubles the picture, with new detail; each coarser halves it")
         level, rect = export_place(desk)
         fits = min(rect.width, rect.height) > 0 and max(rect.width, rect.height) <= PICTURE_SIDE
-        imgui.push_style_color(imgui.Col_.text, theme.vec(theme.QUIET if fits else theme.WARN))
+        imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet if fits else theme.look.warn))
         told = f"{rect.width:,} × {rect.height:,} pixels of level {level}, at most {size_text(export_bytes(desk))}"
         said.text_unformatted(told if fits else f"{rect.width:,} × {rect.height:,} pixels: more than a file can have")
         w.named("size")

@@ -108,7 +108,7 @@ class Browser:
             return False
         em = imgui.get_font_size()
         self._path_row(em)
-        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
+        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.look.field))
         imgui.begin_child("entries", ImVec2(em * 42, em * 25))
         picked = self._entries(desk)
         imgui.end_child()
@@ -135,7 +135,7 @@ class Browser:
             desk.asked.give_up()
             return False
         if self._fault:
-            said.text_colored(theme.vec(theme.WARN), self._fault)
+            said.text_colored(theme.vec(theme.look.warn), self._fault)
         return True
 
     def _path_row(self, em: float) -> None:

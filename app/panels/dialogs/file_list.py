@@ -43,11 +43,11 @@ def _contents(desk: Desk, folder: Path, row: FileRow, side: float) -> None:
     """What the item just drawn shows."""
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
     em, gap, painter = imgui.get_font_size(), imgui.get_style().item_spacing.x, imgui.get_window_draw_list()
-    top, quiet = (low.y + high.y - em) / 2, theme.packed(theme.QUIET)
+    top, quiet = (low.y + high.y - em) / 2, theme.packed(theme.look.quiet)
     _picture(desk, folder, row, ImVec2(low.x + gap, (low.y + high.y - side) / 2))
     date, size = high.x - _DATE * em, high.x - _DATE * em - gap
     painter.push_clip_rect(low, ImVec2(size - _SIZE * em if not row.folder else high.x, high.y), True)
-    painter.add_text(ImVec2(low.x + side + 3 * gap, top), theme.packed(theme.TEXT), row.name)
+    painter.add_text(ImVec2(low.x + side + 3 * gap, top), theme.packed(theme.look.text), row.name)
     painter.pop_clip_rect()
     if not row.folder:
         told = size_text(row.size)
@@ -63,6 +63,6 @@ def _picture(desk: Desk, folder: Path, row: FileRow, corner: ImVec2) -> None:
         sign = icons.FOLDER if row.folder else icons.IMAGE
         wide = said.calc_text_size(sign)
         at = ImVec2(corner.x + (side - wide.x) / 2, corner.y + (side - wide.y) / 2)
-        said.add_text(painter, at, theme.packed(theme.TEXT if row.folder else theme.QUIET), sign)
+        said.add_text(painter, at, theme.packed(theme.look.text if row.folder else theme.look.quiet), sign)
     else:
         painter.add_image(shown, corner, ImVec2(corner.x + side, corner.y + side))

@@ -53,7 +53,7 @@ class FilmDialog:
         long = f"{length.seconds:.3g} s, {length.frames:,} frames" if length.frames else f"{icons.WAIT} counting…"
         told = fault or long
         imgui.push_text_wrap_pos(em * (_WIDE + 1))
-        said.text_colored(theme.vec(theme.WARN if fault else theme.QUIET), told)
+        said.text_colored(theme.vec(theme.look.warn if fault else theme.look.quiet), told)
         imgui.pop_text_wrap_pos()
         imgui.spacing()
         chosen = w.default_button("Choose file…", "Choose where to write it", enabled=not fault, width=em * 8)

@@ -51,7 +51,7 @@ class Keys:
         em = imgui.get_font_size()
         self._hear(desk)
         self._head(desk, em)
-        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
+        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.look.field))
         room = imgui.get_main_viewport().work_size.y - 13 * em
         imgui.begin_child("list", ImVec2(_WIDE * em, min(_TALL * em, room)))
         imgui.pop_style_color()
@@ -173,7 +173,7 @@ class Keys:
             said.text_disabled(self._told or "Click a key, then press another; Escape leaves it as it is")
             w.named("told of keys")
             return
-        said.text_colored(theme.vec(theme.WARN), f"{self._pressed} is “{row_action(owner).title}” already")
+        said.text_colored(theme.vec(theme.look.warn), f"{self._pressed} is “{row_action(owner).title}” already")
         w.named("conflict")
         imgui.same_line()
         if w.text_button("Take it##key", f"Give it to “{row_action(self._slot.row).title}”"):
@@ -205,4 +205,4 @@ def _pointer_rows(em: float) -> None:
         imgui.set_cursor_pos_x(1.2 * em)
         said.text_unformatted(title)
         imgui.same_line((_WIDE - _KEYS) * em)
-        said.text_colored(theme.vec(theme.ACCENT), keys)
+        said.text_colored(theme.vec(theme.look.accent), keys)

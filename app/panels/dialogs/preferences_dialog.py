@@ -17,12 +17,13 @@ from app.language.wide_fonts import has_letters
 from app.language.words import LANGUAGES, known_languages
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
+from app.theme.looks import LOOKS
 from engine.keeping.preferences import Preferences, preferences_file
 
 _WIDE, _TALL = 30.0, 22.0  # ems of the page
 _PAGES = (
     ("pen", "Pen", "How pens are felt, with a place to try it"),
-    ("display", "Display", "How large all beside the canvas is"),
+    ("display", "Display", "Colours of the window, and how large all beside the canvas is"),
     ("memory", "Memory", "What paintings may take"),
     ("files", "Files", "Earlier versions and the bin"),
 )
@@ -120,14 +121,21 @@ class PreferencesDialog:
 
 _OF_PAGES = {
     "pen": ("curve", "constant", "ignore_touch"),
-    "display": ("scale", "font_size", "profile", "proof", "language"),
+    "display": ("look", "scale", "font_size", "profile", "proof", "language"),
     "memory": ("megabytes",),
     "files": ("versions", "gigabytes", "part_of_free"),
 }
 
 
 def _display(desk: Desk) -> None:
-    now, em, hint = desk.preferred.now, imgui.get_font_size(), "Of panels, buttons and texts, in that of the screen"
+    now = desk.preferred.now
+    said.text_disabled("Colours of the window")
+    looks = [(name, look.title, look.hint) for name, look in LOOKS.items()]
+    chosen = w.segments("look", now.look, looks)
+    if chosen:
+        prefer(desk, look=chosen)
+    imgui.spacing()
+    em, hint = imgui.get_font_size(), "Of panels, buttons and texts, in that of the screen"
     hint += "; larger ones than this window has room for are left out"
     said.text_disabled("Size of all beside the canvas")
     room = min(desk.view.width / _ROOM[0], desk.view.height / _ROOM[1]) * now.scale / desk.scale  # in which all fits

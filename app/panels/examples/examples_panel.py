@@ -163,14 +163,14 @@ class ExamplesPanel(Panel):
             self._own.menu(desk, entry)
         painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + wide)
         rounding, white = 5 * desk.scale, theme.packed((1.0, 1.0, 1.0))
-        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+        painter.add_rect_filled(corner, end, theme.packed(theme.look.field), rounding)
         picture = desk.pictures.get(thumbnails.ident(entry))
         if picture is not None:
             painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, rounding)
         if chosen or hovered:
-            colour = theme.packed(theme.ACCENT if chosen else (0.6,) * 3)
+            colour = theme.packed(theme.look.accent if chosen else theme.look.edge)
             painter.add_rect(corner, end, colour, rounding, thickness=(2.5 if chosen else 1.5) * desk.scale)
-        grey = theme.TEXT if chosen else (0.72,) * 3
+        grey = theme.look.text if chosen else theme.look.soft
         _named(
             example_state.label(entry, desk.examples.entries), ImVec2(corner.x, end.y + 1.5 * desk.scale), wide, grey
         )
@@ -193,12 +193,12 @@ class ExamplesPanel(Panel):
         corner = w.picture(shown, (room.x, tall), hint, name="sample")
         if shown is not None and state.seen != state.chosen:  # it is of another one yet
             end = ImVec2(corner.x + room.x, corner.y + tall)
-            veil = theme.packed(theme.FIELD, 0.75)
+            veil = theme.packed(theme.look.field, 0.75)
             imgui.get_window_draw_list().add_rect_filled(corner, end, veil, imgui.get_style().frame_rounding)
         if shown is None and entry is not None and desk.known.preparing is not None:
             _in_middle("Getting ready…", corner, (room.x, tall))
         wide = (room.x - gap.x) / 2
-        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
+        imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft))
         painting = entry is not None and desk.hand.stroke_mode().grows and desk.hand.tool == "brush"
         text = f"{icons.BRUSH} Painting" if painting else f"{icons.BRUSH} Paint"
         if w.text_button(f"{text}###paint", "Paint with this example", enabled=entry is not None, width=wide):
@@ -206,7 +206,7 @@ class ExamplesPanel(Panel):
         imgui.pop_style_color()
         imgui.same_line()
         hint = "Then click on a painted texture: it becomes like this one"
-        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if state.swapping else theme.RAISED))
+        imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft if state.swapping else theme.look.raised))
         if w.text_button(f"{icons.SWAP} Swap", hint, enabled=entry is not None, width=wide):
             state.swapping = not state.swapping
         imgui.pop_style_color()
@@ -259,7 +259,7 @@ def _in_middle(text: str, corner: ImVec2, size: tuple[float, float]) -> None:
     """Draws a word where a picture is to come."""
     half = said.calc_text_size(text) / 2
     at = ImVec2(corner.x + size[0] / 2 - half.x, corner.y + size[1] / 2 - half.y)
-    imgui.get_window_draw_list().add_text(at, theme.packed(theme.QUIET), text)
+    imgui.get_window_draw_list().add_text(at, theme.packed(theme.look.quiet), text)
 
 
 def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float]) -> None:

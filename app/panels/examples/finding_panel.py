@@ -82,7 +82,7 @@ class FindingPanel:
         several = found is not None and found.things > 1
         text = f"Take {found.things}" if several and found is not None else "Take"
         hint = "Each becomes an example of its own" if several else "Cut it out: it is the example from now on"
-        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
+        imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft))
         if w.text_button(f"{text}###take", hint, enabled=found is not None, width=wide):
             cutting_work.take_cut(desk)
         imgui.pop_style_color()

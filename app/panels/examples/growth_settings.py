@@ -119,7 +119,7 @@ class GrowthSettings:
         state, gap = desk.examples, 2 * desk.scale
         room = imgui.get_content_region_avail().x
         tried = state.tried(entry)
-        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
+        imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft))
         hint = "Paint with these settings" + (" from now on; the example keeps them" if entry.own else "")
         if w.text_button(f"{icons.BRUSH} Use", hint, enabled=tried, width=0.36 * (room - 2 * gap)):
             example_work.use_settings(desk)

@@ -58,7 +58,7 @@ class RegionPanel:
         imgui.end_child()
         own = entry is not None and entry.own
         lit = region.scene.modified or not own
-        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if lit else theme.RAISED))
+        imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft if lit else theme.look.raised))
         text, hint = ("Save", "Keep this region") if own else ("Save as my own", "It goes to a copy of your own")
         if w.text_button(f"{icons.DISK} {text}###save", hint, enabled=region.scene.modified, width=-1):
             example_work.save_region(desk)

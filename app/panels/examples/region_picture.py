@@ -22,7 +22,7 @@ def draw_picture(desk: Desk, names: tuple[str, ...], size: tuple[int, int], radi
     at = ImVec2(round(corner.x + (room.x - width * scale) / 2), round(corner.y + (room.y - height * scale) / 2))
     end = ImVec2(at.x + width * scale, at.y + height * scale)
     painter = imgui.get_window_draw_list()
-    painter.add_rect_filled(corner, ImVec2(corner.x + room.x, corner.y + room.y), theme.packed(theme.FIELD), 4)
+    painter.add_rect_filled(corner, ImVec2(corner.x + room.x, corner.y + room.y), theme.packed(theme.look.field), 4)
     w.placed("region", at, end)
     picture = next((desk.pictures[name] for name in names if name in desk.pictures), None)
     if picture is not None:

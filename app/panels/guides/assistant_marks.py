@@ -183,7 +183,7 @@ def _handle(desk: Desk, at: Pair, guide: Guide, number: int) -> None:
     painter, radius = imgui.get_background_draw_list(), (6.0 if number == 0 else 5.0) * desk.scale
     lit = guide.name == desk.guides.chosen
     painter.add_circle_filled(ImVec2(*at), radius, theme.packed((0.0, 0.0, 0.0), 0.55), _SIDES)
-    ring = theme.packed(theme.ACCENT if lit else (1.0, 1.0, 1.0), 0.95)
+    ring = theme.packed(theme.look.accent if lit else (1.0, 1.0, 1.0), 0.95)
     painter.add_circle(ImVec2(*at), radius, ring, _SIDES, 1.8 * desk.scale)
     box = (round(at[0] - radius), round(at[1] - radius), round(at[0] + radius), round(at[1] + radius))
     trace.note_place("canvas", f"{guide.name} point {number + 1}", box)

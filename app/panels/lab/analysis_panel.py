@@ -108,7 +108,7 @@ class AnalysisPanel(Panel):
                 corner.x + wide * (math.log(frequency) - low) / across, corner.y + 4 + (tall - 8) * max(0.0, down)
             )
 
-        for column, colour in ((1, (0.8,) * 3), (2, theme.ACCENT)):
+        for column, colour in ((1, theme.look.text), (2, theme.look.accent)):
             painter.add_polyline([at(row[0], row[column]) for row in rows], theme.packed(colour), 1.5, 0)
 
 

@@ -213,7 +213,7 @@ class LabPanel(Panel):
             if i:
                 imgui.same_line(0, gap)
             wide = (room - 2 * gap) * (0.46, 0.31, 0.23)[i]
-            imgui.push_style_color(imgui.Col_.button, theme.vec(theme.RAISED if i else theme.ACCENT_SOFT))
+            imgui.push_style_color(imgui.Col_.button, theme.vec(theme.look.raised if i else theme.look.accent_soft))
             if w.text_button(f"{icon} {text}".strip(), hint, enabled=not silent, width=wide):
                 self._use(desk, how, using)
             imgui.pop_style_color()
@@ -251,7 +251,7 @@ def _axes(desk: Desk, corner: ImVec2, side: float, over: bool) -> None:
 def _invite(corner: ImVec2, side: float, text: str) -> None:
     size = said.calc_text_size(text)
     at = ImVec2(corner.x + (side - size.x) / 2, corner.y + side * 0.62)
-    imgui.get_window_draw_list().add_text(at, theme.packed(theme.TEXT, 0.8), text)
+    imgui.get_window_draw_list().add_text(at, theme.packed(theme.look.text, 0.8), text)
 
 
 def _window(corner: ImVec2, size: tuple[float, float], width: int, scale: float) -> None:
@@ -272,7 +272,7 @@ def _label(at: ImVec2, text: str, alpha: float = 1.0) -> None:
     painter = imgui.get_window_draw_list()
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         said.add_text(painter, ImVec2(at.x + dx, at.y + dy), theme.packed((0.0, 0.0, 0.0), 0.6 * alpha), text)
-    said.add_text(painter, at, theme.packed(theme.TEXT, alpha), text)
+    said.add_text(painter, at, theme.packed(theme.look.text, alpha), text)
 
 
 _LIVE = "A texture in use changes with the lab, and the next stroke paints with it"

@@ -95,7 +95,7 @@ class LayersPanel:
         line = imgui.get_frame_height() + 3 * desk.scale
         room = imgui.get_content_region_avail().y - imgui.get_frame_height_with_spacing() - 2 * desk.scale
         height = max(room, 3.3 * line)
-        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
+        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.look.field))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(4 * desk.scale, 3 * desk.scale))
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(3 * desk.scale, 3 * desk.scale))
         imgui.begin_child("list", ImVec2(0, height), imgui.ChildFlags_.always_use_window_padding)
@@ -115,7 +115,7 @@ class LayersPanel:
                     self._reveal = None
                 imgui.pop_id()
         if not rows:
-            imgui.push_style_color(imgui.Col_.text, theme.vec(theme.QUIET))
+            imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
             said.text_wrapped(" No layer yet: the first stroke makes one.")
             imgui.pop_style_color()
         imgui.end_child()
@@ -187,12 +187,12 @@ class LayersPanel:
             (row.alpha_locked, icons.ALPHA_LOCK),
         )
         signs = "".join(f" {sign}" for shown, sign in told if shown)
-        quiet = theme.TEXT if row.visible else theme.QUIET
+        quiet = theme.look.text if row.visible else theme.look.quiet
         imgui.push_style_color(imgui.Col_.text, theme.vec(quiet))
         imgui.push_style_var(imgui.StyleVar_.selectable_text_align, ImVec2(0.0, 0.5))
         flags = imgui.SelectableFlags_.allow_double_click
         shown = ended(row.name, imgui.get_content_region_avail().x - said.calc_text_size(signs).x)
-        imgui.push_style_color(imgui.Col_.header, theme.vec(theme.ACCENT_SOFT, 1.0 if active else _ALSO))
+        imgui.push_style_color(imgui.Col_.header, theme.vec(theme.look.accent_soft, 1.0 if active else _ALSO))
         if imgui.selectable(
             f"{shown}{signs}###name", active or row.name in desk.stack.many, flags, ImVec2(0, imgui.get_frame_height())
         )[0]:

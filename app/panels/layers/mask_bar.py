@@ -27,7 +27,7 @@ def draw(desk: Desk) -> None:
     if row is None:
         return
     imgui.align_text_to_frame_padding()
-    said.text_colored(theme.vec(theme.ACCENT), f"{icons.MASK}  Mask of {ended(row.name, _NAMED * em)}")
+    said.text_colored(theme.vec(theme.look.accent), f"{icons.MASK}  Mask of {ended(row.name, _NAMED * em)}")
     w.named("mask bar")
     w.tooltip("Brush, fills and gradients go to the mask: white shows, black hides, the eraser hides")
     imgui.same_line(0, em)

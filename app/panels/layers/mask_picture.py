@@ -33,16 +33,16 @@ def draw(desk: Desk, row: LayerRow) -> None:
     at, to = ImVec2(corner.x + edge, corner.y + edge), ImVec2(end.x - edge, end.y - edge)
     painter, shown = imgui.get_window_draw_list(), desk.pictures.get(picture_name(row.name))
     if shown is None:
-        said.add_text(painter, at, theme.packed(theme.QUIET), icons.MASK)
+        said.add_text(painter, at, theme.packed(theme.look.quiet), icons.MASK)
     else:
         painter.add_image(shown, at, to)
     here = desk.masks.on(row)
     if here or hovered:
-        colour = theme.packed(theme.ACCENT if here else theme.QUIET)
+        colour = theme.packed(theme.look.accent if here else theme.look.quiet)
         painter.add_rect(corner, end, colour, 2 * desk.scale, thickness=(2 if here else 1) * desk.scale)
     if row.mask_off:
-        painter.add_line(at, to, theme.packed(theme.WARN), 2 * desk.scale)
-        painter.add_line(ImVec2(to.x, at.y), ImVec2(at.x, to.y), theme.packed(theme.WARN), 2 * desk.scale)
+        painter.add_line(at, to, theme.packed(theme.look.warn), 2 * desk.scale)
+        painter.add_line(ImVec2(to.x, at.y), ImVec2(at.x, to.y), theme.packed(theme.look.warn), 2 * desk.scale)
     if pressed:
         _pressed(desk, row)
     _more(desk, row)

@@ -94,7 +94,7 @@ def _dome(desk: Desk) -> None:
         grey = _DARK + (_BRIGHT - _DARK) * part**1.5
         at = ImVec2(middle.x + x * radius * part, middle.y + y * radius * part)
         painter.add_circle_filled(at, radius * (1 - part), theme.packed((grey,) * 3), 48)
-    painter.add_circle(middle, radius, theme.packed((0.42,) * 3), 48)
+    painter.add_circle(middle, radius, theme.packed(theme.look.edge), 48)
     _sun(painter, ImVec2(middle.x + x * radius, middle.y + y * radius), 0.05 * side * (1.2 if held else 1.0))
     if not held:
         w.tooltip(f"Drag the sun: {state.light.azimuth:.0f}° from the top, {state.light.altitude:.0f}° high")

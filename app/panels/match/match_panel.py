@@ -84,7 +84,7 @@ class MatchingPanel(Panel):
         fault = desk.match.scene.fault if desk.match.scene is not None else ""
         if fault:
             imgui.same_line(0, 14 * desk.scale)
-            said.text_colored(theme.vec(theme.WARN), fault if len(fault) < 70 else fault[:68] + "…")
+            said.text_colored(theme.vec(theme.look.warn), fault if len(fault) < 70 else fault[:68] + "…")
             w.tooltip(fault)
 
     # --- examples ----------------------------------------------------------------------------------------------------
@@ -109,7 +109,7 @@ class MatchingPanel(Panel):
             text = ("Drop an image" if index == 0 else "and another, to mix") if held is None else "…"
             size = said.calc_text_size(text)
             at = ImVec2((corner.x + end.x - size.x) / 2, (corner.y + end.y - size.y) / 2)
-            said.add_text(painter, at, theme.packed(theme.QUIET), text)
+            said.add_text(painter, at, theme.packed(theme.look.quiet), text)
         self._sources(desk, index, wide, line)
 
     def _sources(self, desk: Desk, index: int, wide: float, side: float) -> None:
@@ -164,10 +164,10 @@ class MatchingPanel(Panel):
             text = "Texture like the example"
             size = said.calc_text_size(text)
             at = ImVec2(corner.x + (room.x - size.x) / 2, corner.y + (tall - size.y) / 2)
-            said.add_text(painter, at, theme.packed(theme.QUIET), text)
+            said.add_text(painter, at, theme.packed(theme.look.quiet), text)
         elif scene is not None and scene.done < 1.0:
             end = ImVec2(corner.x + room.x * scene.done, corner.y + tall)
-            painter.add_rect_filled(ImVec2(corner.x, end.y - 3), end, theme.packed(theme.ACCENT))
+            painter.add_rect_filled(ImVec2(corner.x, end.y - 3), end, theme.packed(theme.look.accent))
         side = imgui.get_frame_height()
         options = [(str(n), str(n), f"A texture of {n} × {n} pixels") for n in SIZES]
         picked = w.segments("size", str(match.size), options, room.x - side - 2 * desk.scale)
@@ -188,7 +188,7 @@ class MatchingPanel(Panel):
             if i:
                 imgui.same_line(0, gap)
             wide = (room - 2 * gap) * (0.46, 0.31, 0.23)[i]
-            imgui.push_style_color(Col.button, theme.vec(theme.RAISED if i else theme.ACCENT_SOFT))
+            imgui.push_style_color(Col.button, theme.vec(theme.look.raised if i else theme.look.accent_soft))
             label = f"{icons.WAIT} making…" if busy and i == 0 else f"{icon} {text}".strip()
             if w.text_button(f"{label}##{how}", hint, enabled=good and not busy, width=wide):
                 match.use(desk.post, how, pictured.free_texture_name(desk, _stem(desk)))
@@ -237,7 +237,7 @@ def _within(corner: ImVec2, room: tuple[float, float], size: tuple[int, int]) ->
 
 def _dashed(corner: ImVec2, end: ImVec2, lit: bool) -> None:
     """Draws the edge of a place where something may be dropped."""
-    painter, colour = imgui.get_window_draw_list(), theme.packed(theme.ACCENT if lit else (0.32,) * 3)
+    painter, colour = imgui.get_window_draw_list(), theme.packed(theme.look.accent if lit else theme.look.filled_lit)
     inset, dash = 5.0, 6.0
     x0, y0, x1, y1 = corner.x + inset, corner.y + inset, end.x - inset, end.y - inset
     x = x0

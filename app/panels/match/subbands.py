@@ -29,7 +29,7 @@ def draw(match: MatchState, levels: int, orientations: int) -> None:
     for label, hint, spots in rows:
         corner = imgui.get_cursor_screen_pos()
         painter = imgui.get_window_draw_list()
-        said.add_text(painter, ImVec2(corner.x, corner.y + (tall - em) / 2), theme.packed(theme.QUIET), label)
+        said.add_text(painter, ImVec2(corner.x, corner.y + (tall - em) / 2), theme.packed(theme.look.quiet), label)
         wide = (room - gap * (len(spots) - 1)) / len(spots)
         for k, spot in enumerate(spots):
             at = ImVec2(corner.x + _LABEL * em + k * (wide + gap), corner.y)
@@ -72,22 +72,24 @@ def _cell(
         f"{hint}: {gain:.2f} times as strong\nDrag to change it, with Shift all of the row; double click to reset"
     )
     painter, rounding = imgui.get_window_draw_list(), 3.0
-    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), rounding)
     fill = ImVec2(corner.x + wide * part_of(gain), end.y)
-    shade = theme.ACCENT_SOFT if (gain, curve) != _STILL else (0.36,) * 3 if hovered else (0.29,) * 3
+    shade = (
+        theme.look.accent_soft if (gain, curve) != _STILL else theme.look.filled_lit if hovered else theme.look.filled
+    )
     if fill.x > corner.x + 1:
         painter.add_rect_filled(corner, fill, theme.packed(shade), rounding)
     if angle is not None:
         _sign(ImVec2(corner.x + wide / 2, corner.y + tall / 2), tall * 0.34, angle)
     if curve is not None:
-        painter.add_circle_filled(ImVec2(end.x - 5, corner.y + 5), 2.2, theme.packed(theme.ACCENT))
+        painter.add_circle_filled(ImVec2(end.x - 5, corner.y + 5), 2.2, theme.packed(theme.look.accent))
     if match.chosen == spot:
-        painter.add_rect(corner, end, theme.packed(theme.ACCENT), rounding)
+        painter.add_rect(corner, end, theme.packed(theme.look.accent), rounding)
 
 
 def _sign(middle: ImVec2, radius: float, angle: float) -> None:
     """Crests of waves that run along `angle`, y downwards."""
-    painter, colour = imgui.get_window_draw_list(), theme.packed((1.0,) * 3, 0.45)
+    painter, colour = imgui.get_window_draw_list(), theme.packed(theme.look.text, 0.45)
     along, across = (math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))
     for shift in (-0.6, 0.0, 0.6):
         x, y = middle.x + shift * radius * along[0], middle.y + shift * radius * along[1]

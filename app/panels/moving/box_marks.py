@@ -43,7 +43,7 @@ def _square(painter: imgui.ImDrawList, at: Point, half: float, desk: Desk, name:
     x, y = at
     a, b = ImVec2(x - half, y - half), ImVec2(x + half, y + half)
     lit = desk.moving.grip == name
-    painter.add_rect_filled(a, b, theme.packed(theme.ACCENT if lit else (1.0, 1.0, 1.0)), 1.0)
+    painter.add_rect_filled(a, b, theme.packed(theme.look.accent if lit else (1.0, 1.0, 1.0)), 1.0)
     painter.add_rect(a, b, theme.packed((0.0, 0.0, 0.0), 0.85), 1.0, thickness=1.2 * desk.scale)
     _noted(name, at, half)
 
@@ -51,7 +51,7 @@ def _square(painter: imgui.ImDrawList, at: Point, half: float, desk: Desk, name:
 def _turner(painter: imgui.ImDrawList, box: Box, desk: Desk) -> None:
     at, half = ImVec2(*box.turner), _TURNER * desk.scale
     lit = desk.moving.grip == TURN
-    painter.add_circle_filled(at, half, theme.packed(theme.ACCENT if lit else (1.0, 1.0, 1.0)), 24)
+    painter.add_circle_filled(at, half, theme.packed(theme.look.accent if lit else (1.0, 1.0, 1.0)), 24)
     painter.add_circle(at, half, theme.packed((0.0, 0.0, 0.0), 0.85), 24, 1.2 * desk.scale)
     _noted(TURN, box.turner, half)
 
@@ -77,7 +77,7 @@ def _label(painter: imgui.ImDrawList, desk: Desk) -> None:
     a, b = ImVec2(middle.x, middle.y - mark), ImVec2(middle.x + mark, middle.y)
     c, d = ImVec2(middle.x, middle.y + mark), ImVec2(middle.x - mark, middle.y)
     if label.exact:
-        painter.add_quad_filled(a, b, c, d, theme.packed(theme.ACCENT))
+        painter.add_quad_filled(a, b, c, d, theme.packed(theme.look.accent))
     else:
         painter.add_quad(a, b, c, d, theme.packed((1.0, 1.0, 1.0), 0.4), 1.2 * scale)
     said.add_text(painter, ImVec2(at.x + pad + room, at.y + pad / 2), theme.packed((1.0, 1.0, 1.0)), label.text)

@@ -27,7 +27,7 @@ def draw_frame_marks(desk: Desk) -> None:
         half = (_HALF if name in CORNERS else _SMALLER) * scale
         a, b = ImVec2(x - half, y - half), ImVec2(x + half, y + half)
         held = desk.framing.grip == name
-        painter.add_rect_filled(a, b, theme.packed(theme.ACCENT if held else (1.0, 1.0, 1.0)), 1.0)
+        painter.add_rect_filled(a, b, theme.packed(theme.look.accent if held else (1.0, 1.0, 1.0)), 1.0)
         painter.add_rect(a, b, theme.packed((0.0, 0.0, 0.0), 0.85), 1.0, thickness=1.2 * scale)
         trace.note_place("canvas", f"frame {name}", (round(a.x), round(a.y), round(b.x), round(b.y)))
     if desk.framing.dragging:

@@ -122,7 +122,7 @@ def _apply(desk: Desk, row: LayerRow, typed: tuple[str, Typed], where: tuple[Pos
 def _told(very: bool) -> None:
     """Tells whether the very pixels are shown."""
     imgui.align_text_to_frame_padding()
-    said.text_colored(theme.vec(theme.ACCENT if very else theme.QUIET), "Exact" if very else "Sampled")
+    said.text_colored(theme.vec(theme.look.accent if very else theme.look.quiet), "Exact" if very else "Sampled")
     w.named("exact" if very else "sampled")
     w.tooltip(
         "It shows the very pixels that were painted"
@@ -135,7 +135,7 @@ def _told_laid(laid: LaidLevel) -> None:
     """Tells of which level it becomes pixels in its layer."""
     imgui.align_text_to_frame_padding()
     text = f"Pixels of level {laid.level}"
-    said.text_colored(theme.vec(theme.WARN if laid.loses else theme.QUIET), text)
+    said.text_colored(theme.vec(theme.look.warn if laid.loses else theme.look.quiet), text)
     w.named(text)
     w.tooltip(
         "Set down, it becomes paint of its layer: pixels of this level"

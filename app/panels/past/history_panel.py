@@ -61,7 +61,7 @@ class HistoryPanel(Panel):
     def _way(self, desk: Desk, part: float) -> None:
         """Draws how far the painting is played anew, and what gives it up."""
         wide = _WAYS_WIDE * imgui.get_font_size() - imgui.get_frame_height() - imgui.get_style().item_spacing.x
-        imgui.push_style_color(imgui.Col_.plot_histogram, theme.vec(theme.ACCENT_SOFT))
+        imgui.push_style_color(imgui.Col_.plot_histogram, theme.vec(theme.look.accent_soft))
         imgui.progress_bar(part, ImVec2(wide, 0), f"{part:.0%}")
         imgui.pop_style_color()
         w.tooltip("The painting is played anew up to that step")
@@ -71,7 +71,7 @@ class HistoryPanel(Panel):
 
     def _ways_back(self, desk: Desk, looking: int) -> None:
         wide = (_WAYS_WIDE * imgui.get_font_size() - imgui.get_style().item_spacing.x) / 2
-        imgui.push_style_color(imgui.Col_.text, theme.vec(theme.WARN))
+        imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.warn))
         back = w.text_button("Back to now", ACTIONS["now"].hint, width=wide)
         imgui.pop_style_color()
         if back:

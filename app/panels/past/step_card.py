@@ -45,7 +45,7 @@ def draw(name: str, picture: object | None, lines: tuple[str, ...], look: Look, 
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
     rounding = imgui.get_style().frame_rounding
     if look.now or look.seen or over:
-        grey = theme.ACCENT_SOFT if look.now or look.seen else theme.RAISED
+        grey = theme.look.accent_soft if look.now or look.seen else theme.look.raised
         painter.add_rect_filled(corner, end, theme.packed(grey), rounding)
     strength = 0.35 if look.undone else 1.0
     gap = _GAP * scale
@@ -53,12 +53,12 @@ def draw(name: str, picture: object | None, lines: tuple[str, ...], look: Look, 
     edge = ImVec2(at.x + WIDE * scale, at.y + TALL * scale)
     _picture(painter, picture, (at, edge), strength)
     if look.seen:
-        painter.add_rect(at, edge, theme.packed(theme.WARN), rounding, thickness=2.0 * scale)
+        painter.add_rect(at, edge, theme.packed(theme.look.warn), rounding, thickness=2.0 * scale)
     if look.count > 1:
         _count(painter, look.count, edge, strength)
     painter.push_clip_rect(at, ImVec2(edge.x, end.y), True)
     for n, text in enumerate(lines):
-        colour = theme.TEXT if n == 0 else theme.QUIET
+        colour = theme.look.text if n == 0 else theme.look.soft
         y = edge.y + 0.5 * gap + n * imgui.get_text_line_height()
         said.add_text(
             painter, ImVec2(at.x, round(y)), theme.packed(colour, max(strength, 0.5)), ended(say(text), WIDE * scale)
@@ -69,7 +69,7 @@ def draw(name: str, picture: object | None, lines: tuple[str, ...], look: Look, 
 
 def _picture(painter: imgui.ImDrawList, picture: object | None, box: tuple[ImVec2, ImVec2], strength: float) -> None:
     rounding = imgui.get_style().frame_rounding
-    painter.add_rect_filled(*box, theme.packed(theme.FIELD), rounding)
+    painter.add_rect_filled(*box, theme.packed(theme.look.field), rounding)
     if picture is not None:
         tint = theme.packed((1.0, 1.0, 1.0), strength)
         painter.add_image_rounded(picture, *box, ImVec2(0, 0), ImVec2(1, 1), tint, rounding)  # type: ignore[arg-type]
@@ -81,4 +81,6 @@ def _count(painter: imgui.ImDrawList, count: int, edge: ImVec2, strength: float)
     room, scale = said.calc_text_size(text), imgui.get_style().font_scale_dpi
     corner = ImVec2(edge.x - room.x - 10 * scale, edge.y - room.y - 4 * scale)
     painter.add_rect_filled(corner, edge, theme.packed((0.08,) * 3, 0.8 * strength), imgui.get_style().frame_rounding)
-    said.add_text(painter, ImVec2(corner.x + 5 * scale, corner.y + 2 * scale), theme.packed(theme.TEXT, strength), text)
+    said.add_text(
+        painter, ImVec2(corner.x + 5 * scale, corner.y + 2 * scale), theme.packed((1.0, 1.0, 1.0), strength), text
+    )

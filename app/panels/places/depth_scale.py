@@ -29,7 +29,7 @@ class DepthScale:
         clicked = imgui.invisible_button("depths", ImVec2(*size))
         w.named("depths")
         end = ImVec2(corner.x + size[0], corner.y + size[1])
-        imgui.get_window_draw_list().add_rect_filled(corner, end, theme.packed(theme.FIELD), 4)
+        imgui.get_window_draw_list().add_rect_filled(corner, end, theme.packed(theme.look.field), 4)
         ruler = _Ruler(desk, chart, corner, size)
         mouse = imgui.get_io().mouse_pos.y
         hovered = imgui.is_item_hovered()
@@ -86,11 +86,11 @@ class _Ruler:
             told.append(y)
             text = str(level).replace("-", "−")
             at = ImVec2(self._left - said.calc_text_size(text).x - 8 * self._scale, y - self._line / 2)
-            said.add_text(self._painter, at, theme.packed(theme.TEXT if level == lit else theme.QUIET), text)
+            said.add_text(self._painter, at, theme.packed(theme.look.text if level == lit else theme.look.quiet), text)
 
     def view(self) -> None:
         """Draws where the view is."""
-        y, tip, white = self.height(self._now), 5 * self._scale, theme.packed((1.0,) * 3)
+        y, tip, white = self.height(self._now), 5 * self._scale, theme.packed(theme.look.text)
         self._painter.add_line(ImVec2(self._left - 2, y), ImVec2(self._right, y), white, 1.5)
         a, b = ImVec2(self._left - 2 - tip, y - tip), ImVec2(self._left - 2 - tip, y + tip)
         self._painter.add_triangle_filled(ImVec2(self._left - 2, y), a, b, white)

@@ -51,7 +51,7 @@ class PaintMapView:
         w.named("map")
         hovered, mouse = imgui.is_item_hovered(), imgui.get_io().mouse_pos
         painter, corner, end = imgui.get_window_draw_list(), chart.corner, chart.end
-        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), 4 * desk.scale)
+        painter.add_rect_filled(corner, end, theme.packed(theme.look.field), 4 * desk.scale)
         shown = desk.pictures.get("map")
         if shown is not None:
             painter.add_image(shown, ImVec2(*chart.left_top), ImVec2(*chart.right_bottom))
@@ -84,10 +84,10 @@ def _needs_mark(chart: Chart, spot: Spot) -> bool:
 def _empty(room: ImVec2, text: str) -> None:
     corner, painter = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     imgui.dummy(room)
-    painter.add_rect_filled(corner, ImVec2(corner.x + room.x, corner.y + room.y), theme.packed(theme.FIELD), 4)
+    painter.add_rect_filled(corner, ImVec2(corner.x + room.x, corner.y + room.y), theme.packed(theme.look.field), 4)
     size = said.calc_text_size(text)
     at = ImVec2(corner.x + (room.x - size.x) / 2, corner.y + (room.y - size.y) / 2)
-    said.add_text(painter, at, theme.packed(theme.QUIET), text)
+    said.add_text(painter, at, theme.packed(theme.look.quiet), text)
 
 
 def _outline(painter: imgui.ImDrawList, chart: Chart, frame: Rect) -> None:

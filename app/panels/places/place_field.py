@@ -60,5 +60,5 @@ def _fill(desk: Desk, fresh: bool) -> None:
             places.typed = None
             imgui.close_current_popup()
     if places.fault:
-        said.text_colored(theme.vec(theme.WARN), places.fault)
+        said.text_colored(theme.vec(theme.look.warn), places.fault)
         w.named("place fault")

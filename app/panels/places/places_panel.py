@@ -92,7 +92,7 @@ class PlacesPanel(Panel):
         hovered, end = imgui.is_item_hovered(), ImVec2(corner.x + size[0], corner.y + size[1])
         w.tooltip(f"Go to “{mark.name}”")
         painter, rounding = imgui.get_window_draw_list(), imgui.get_style().frame_rounding
-        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+        painter.add_rect_filled(corner, end, theme.packed(theme.look.field), rounding)
         shown = desk.pictures.get(f"place {mark.name}")
         if shown is not None:
             scale = min(size[0] / mark.size[0], size[1] / mark.size[1])
@@ -101,7 +101,7 @@ class PlacesPanel(Panel):
             at, to = ImVec2(middle.x - half.x, middle.y - half.y), ImVec2(middle.x + half.x, middle.y + half.y)
             painter.add_image_rounded(shown, at, to, ImVec2(0, 0), ImVec2(1, 1), theme.packed((1.0,) * 3), rounding)
         if hovered:
-            painter.add_rect(corner, end, theme.packed(theme.ACCENT), rounding, thickness=1.5 * desk.scale)
+            painter.add_rect(corner, end, theme.packed(theme.look.accent), rounding, thickness=1.5 * desk.scale)
         editing = self._editing == mark.name
         if self._tools(desk, mark, corner, end):
             pressed = False
@@ -121,7 +121,7 @@ class PlacesPanel(Panel):
             return False
         side, edge = imgui.get_frame_height(), 3 * desk.scale
         at = ImVec2(end.x - 2 * side - edge, corner.y + edge)
-        ground, rounding = theme.packed(theme.PANEL, 0.85), imgui.get_style().frame_rounding
+        ground, rounding = theme.packed(theme.look.panel, 0.85), imgui.get_style().frame_rounding
         imgui.get_window_draw_list().add_rect_filled(at, ImVec2(end.x - edge, at.y + side), ground, rounding)
         imgui.set_cursor_screen_pos(at)
         rename = w.icon_button("rename", icons.PENCIL, f"Rename “{mark.name}”", size=side)
@@ -165,7 +165,7 @@ class PlacesPanel(Panel):
 def _add_card(desk: Desk, size: tuple[float, float], first: bool) -> None:
     """Draws a place for the next one."""
     action = ACTIONS["bookmark"]
-    imgui.push_style_color(imgui.Col_.button, theme.vec(theme.RAISED, 0.45))
+    imgui.push_style_color(imgui.Col_.button, theme.vec(theme.look.raised, 0.45))
     imgui.begin_disabled(not action.when(desk))
     pressed = said.button(f"{icons.ADD}  {'Bookmark this view' if first else 'This view'}", ImVec2(*size))
     imgui.end_disabled()

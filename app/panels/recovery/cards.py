@@ -27,7 +27,6 @@ _GAP = 0.55  # ems from a card to the next
 _IN_SIGHT = 3.45  # cards: part of the next one shows that there are more
 _AROUND = 12.0  # ems of a window that the dialog takes above and below the cards
 _NAME = 1.25  # a name's size, in that of all other text
-_CARD, _SPENT = (0.195,) * 3, (0.155,) * 3  # greys of a card, and of one that is dealt with
 _DAMAGED = "Part of what was done last is missing"
 _BUTTONS = {"Open": 5.6, "Keep for later": 8.6, "Discard": 6.0}  # widths, ems
 
@@ -83,7 +82,7 @@ class Cards:
         """Draws a card; tells whether its painting is to be opened."""
         em, tall = size
         spent = entry.ident in self._spent
-        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(_SPENT if spent else _CARD))
+        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.look.shade if spent else theme.look.card))
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(em * _PAD, em * _PAD))
         flags = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
         imgui.begin_child(f"card {entry.ident}", ImVec2(0, tall), imgui.ChildFlags_.always_use_window_padding, flags)
@@ -114,7 +113,7 @@ class Cards:
         wrong = [f"Missing: {fault}" for fault in entry.faults]
         told = [*(["Inkfall crashed"] if entry.ident in self._crashed else []), *([_DAMAGED] if wrong else [])]
         if told:
-            said.text_colored(theme.vec(theme.WARN), f"{icons.WARNING}  {'; '.join(told)}")
+            said.text_colored(theme.vec(theme.look.warn), f"{icons.WARNING}  {'; '.join(told)}")
             w.named(f"fault of {entry.name}")
             crash = [f"{log_file()} tells more of the crash"] if entry.ident in self._crashed else []
             w.tooltip("\n".join([*wrong, *crash]))
@@ -191,4 +190,4 @@ def _sign(corner: ImVec2, em: float) -> None:
     """Draws a sign where no picture is."""
     wide = said.calc_text_size(icons.IMAGE)
     at = ImVec2(corner.x + (_PICTURE * em - wide.x) / 2, corner.y + (_PICTURE * em - wide.y) / 2)
-    imgui.get_window_draw_list().add_text(at, theme.packed(theme.QUIET), icons.IMAGE)
+    imgui.get_window_draw_list().add_text(at, theme.packed(theme.look.quiet), icons.IMAGE)

@@ -92,7 +92,7 @@ class SolidPanel(Panel):
         if wheel:
             state.scale = min(max(state.scale * 1.12**wheel, _SCALES[0]), _SCALES[1])
         painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size[0], corner.y + size[1])
-        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), imgui.get_style().frame_rounding)
+        painter.add_rect_filled(corner, end, theme.packed(theme.look.field), imgui.get_style().frame_rounding)
         shown = desk.pictures.get("solid")
         if shown is not None and state.carved is not None:
             painter.add_image(shown, corner, ImVec2(corner.x + state.room[0], corner.y + state.room[1]))
@@ -104,7 +104,7 @@ class SolidPanel(Panel):
             grown = f"{icons.WAIT} growing… {state.growing.done:.0%}" if state.growing is not None else ""
             text = grown or f"{icons.WAIT} carving…"
             at = ImVec2(corner.x + 10 * desk.scale, end.y - 26 * desk.scale)
-            said.add_text(painter, at, theme.packed(theme.QUIET), text)
+            said.add_text(painter, at, theme.packed(theme.look.quiet), text)
 
     def _touches(self, desk: Desk) -> None:
         """Chooses between turning the object and painting on it; takes the paint off."""

@@ -26,7 +26,7 @@ def draw_file_picture(desk: Desk, path: Path, corner: ImVec2, size: ImVec2) -> N
     shown = desk.pictures.get(previews.ident(Path(), _row(desk, path)))
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size.x, corner.y + size.y)
     rounding = imgui.get_style().frame_rounding
-    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), rounding)
     if shown is not None:
         wide, high = (min(1.0, a / b) / 2 for a, b in ((size.x, size.y), (size.y, size.x)))
         low, most = ImVec2(0.5 - wide, 0.5 - high), ImVec2(0.5 + wide, 0.5 + high)
@@ -34,7 +34,7 @@ def draw_file_picture(desk: Desk, path: Path, corner: ImVec2, size: ImVec2) -> N
         return
     sign = said.calc_text_size(icons.IMAGE)
     at = ImVec2((corner.x + end.x - sign.x) / 2, (corner.y + end.y - sign.y) / 2)
-    said.add_text(painter, at, theme.packed(theme.QUIET), icons.IMAGE)
+    said.add_text(painter, at, theme.packed(theme.look.quiet), icons.IMAGE)
 
 
 def _row(desk: Desk, path: Path) -> FileRow:

@@ -144,7 +144,7 @@ class StartPage:
         w.named("lake picture")
         w.tooltip(hint)
         end, painter = ImVec2(corner.x + size.x, corner.y + size.y), imgui.get_window_draw_list()
-        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), imgui.get_style().frame_rounding)
+        painter.add_rect_filled(corner, end, theme.packed(theme.look.field), imgui.get_style().frame_rounding)
         shown = desk.pictures.get(previews.ident(_DEMO, _LAKE))
         if shown is not None:
             cut = (1.0 - _RATIO) / 2  # it lies in the middle of a square
@@ -163,11 +163,11 @@ class StartPage:
             w.named(row.title)
             w.tooltip(row.hint)
             painter, y = imgui.get_window_draw_list(), corner.y + 0.28 * em
-            said.add_text(painter, ImVec2(corner.x + 0.3 * em, y), theme.packed(theme.TEXT), row.title)
+            said.add_text(painter, ImVec2(corner.x + 0.3 * em, y), theme.packed(theme.look.text), row.title)
             keys = (*ACTIONS[row.by].keys, "")[0] if row.by in ACTIONS else row.by
             right = corner.x + wide - said.calc_text_size(keys).x - 0.3 * em
             if right > corner.x + said.calc_text_size(row.title).x + em:
-                said.add_text(painter, ImVec2(right, y), theme.packed(theme.ACCENT), keys)
+                said.add_text(painter, ImVec2(right, y), theme.packed(theme.look.accent), keys)
 
     def _begin(self, desk: Desk) -> None:
         for i, name in enumerate(("new", "open")):
