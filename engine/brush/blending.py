@@ -11,11 +11,24 @@ from engine.numeric.address import TILE
 from engine.numeric.kernel import Array, inner, kernel
 
 _ZERO, _ONE, _TWO, _THREE = np.float32(0.0), np.float32(1.0), np.float32(2.0), np.float32(3.0)
+_HALF = np.float32(0.5)
 
 
 @inner
-def blend(coverage: Array, strength: Array, tints: Array, disc: Array, left: int, top: int) -> None:
-    """Mixes a disc's tints, its last columns, into those of a tile, by its `strength`, which is cleared."""
+def _locate_row(share: Array, first: int, last: int, dy: float, cx: float, place: Array, row: Array) -> None:
+    """Writes where textures lie, float32 (2, 128), where at least half of what is there is the dab's."""
+    for x in range(first, last):
+        if share[x] >= _HALF:
+            dx = x + 0.5 - cx
+            row[0, x] = np.float32(place[0] * dx + place[1] * dy + place[4])
+            row[1, x] = np.float32(place[2] * dx + place[3] * dy + place[5])
+
+
+@inner
+def blend(planes: tuple[Array, Array, Array, Array], disc: Array, left: int, top: int) -> None:
+    """Mixes a disc's tints, its last columns, into those of a tile, by its strength, which is cleared; `planes` as of
+    `Print.lay_tinted`."""
+    coverage, strength, tints, places = planes
     cx, cy, reach = disc[CX] - left, disc[CY] - top, disc[ROUT] + 2.0
     own = disc.shape[0] - tints.shape[0]
     first, last = max(0, math.floor(cx - reach)), min(TILE, math.ceil(cx + reach))
@@ -27,19 +40,22 @@ def blend(coverage: Array, strength: Array, tints: Array, disc: Array, left: int
             t, value = tints[c, y], np.float32(disc[own + c])
             for x in range(first, last):
                 t[x] += (value - t[x]) * k[x]
+        if places.shape[0]:
+            _locate_row(k, first, last, y + 0.5 - cy, cx, disc[own - 6 : own], places[:, y])
         for x in range(first, last):
             k[x] = _ZERO
 
 
 @kernel
-def blend_one(coverage: Array, strength: Array, tints: Array, disc: Array, left: int, top: int) -> None:
+def blend_one(planes: tuple[Array, Array, Array, Array], disc: Array, left: int, top: int) -> None:
     """As `blend`, for Python."""
-    blend(coverage, strength, tints, disc, left, top)
+    blend(planes, disc, left, top)
 
 
 @kernel
-def lay_round(coverage: Array, tints: Array, discs: Array, which: Array, corner: tuple[int, int]) -> None:
+def lay_round(planes: tuple[Array, Array, Array, Array], discs: Array, which: Array, corner: tuple[int, int]) -> None:
     """Lays round discs, as `discs.lay` does, and their tints, one after the other."""
+    coverage, _, tints, places = planes
     across, share = np.empty(TILE, np.float32), np.empty(TILE, np.float32)
     for index in which:
         disc = discs[index]
@@ -62,3 +78,5 @@ def lay_round(coverage: Array, tints: Array, discs: Array, which: Array, corner:
                 t, value = tints[c, y], np.float32(disc[own + c])
                 for x in range(first, last):
                     t[x] += (value - t[x]) * share[x]
+            if places.shape[0]:
+                _locate_row(share, first, last, y + 0.5 - cy, cx, disc[own - 6 : own], places[:, y])

@@ -42,9 +42,10 @@ class Stroker:
     def __init__(self, brush: Brush, key: int = 0) -> None:
         self._response = response(brush)
         self._felt = felt.with_hairs(felt.feeling(brush), brush, key) if felt.feels(brush) else None
-        plan = np.zeros(felt.HAS_TINTS + 1, np.int64) if self._felt is None else self._felt.plan
+        plan = np.zeros(felt.HAS_PLACE + 1, np.int64) if self._felt is None else self._felt.plan
         self._tints = int(plan[felt.HAS_TINTS])
         self._width = (TURNED_COLUMNS if plan[felt.HAS_TURNS] else DAB) + self._tints
+        self._width += felt.PLACE_COLUMNS if plan[felt.HAS_PLACE] else 0
         self._plain = brush.rgb if brush.wet is not None and not set(COLOUR_TARGETS) & set(brush.dynamics) else None
         self._lab = lab_of(brush.rgb) if self._tints and self._plain is None else None
         self._key = np.uint64(key)

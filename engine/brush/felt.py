@@ -29,7 +29,7 @@ from engine.brush.inputs import (
     TILT,
     TILT_DIRECTION,
 )
-from engine.brush.settings import Brush
+from engine.brush.settings import FIXED_TO, Brush
 from engine.brush.targets import ANGLE, COLOUR_TARGETS, FOLLOWERS
 from engine.brush.tip_shape import FOLLOWS, ROUND
 from engine.numeric.elementary import atan, atan2, cos, mapped, sin, tan
@@ -40,7 +40,8 @@ from engine.numeric.kernel import Array, inner
 AT_X, AT_Y, AT_PRESSURE, AT_TILT_X, AT_TILT_Y, AT_TIME, AT_TURN = range(7)
 IS_BEGUN, IS_LEFT, IS_LAID, IS_WAY_X, IS_WAY_Y, IS_PACE, IS_TIMED, IS_GONE = range(7, 15)
 STATE = 15
-HAS_FOLLOW, HAS_WAY, HAS_TURNS, HAS_COUNT, HAS_TINTS = range(5)  # of a plan
+HAS_FOLLOW, HAS_WAY, HAS_TURNS, HAS_COUNT, HAS_TINTS, HAS_PLACE = range(6)  # of a plan
+PLACE_COLUMNS = 6  # of a dab whose textures are fixed to it: a matrix row by row, and where its middle lies in them
 _ALWAYS = 1 << 40  # in place of a dab's number, of what stays all through a stroke
 _SLOTS = 64  # random numbers of a dab
 _LAG = 0.04  # s by which the speed lags behind
@@ -59,7 +60,7 @@ class Feeling(NamedTuple):
     `values`, `lo`, `hi`: float64, a target each; `turns`: bool, likewise; `curves`: int64 (k, 4), target, input, first
     knot and the one after the last of `knots`, float64 (m, 2); `used`: bool, of each input; `plan`: int64, what the
     tip follows, whether the direction is looked at, whether dabs are turned, how many lie at each place, how many
-    tints they have; `soft`: px
+    tints they have, what their textures are fixed to; `soft`: px
     over which the direction turns; `hairs`: float64 (n, 4), of each its place in the tip, size and load; `fine`: how
     large they are to the tip.
     """
@@ -82,6 +83,7 @@ def feels(brush: Brush) -> bool:
     return (
         brush.shape != ROUND
         or brush.wet is not None
+        or brush.fixed != FIXED_TO[0]
         or any(
             isinstance(curve, Mapping) or (name in FOLLOWERS and name not in DYNAMIC)
             for name, curve in brush.dynamics.items()
@@ -94,7 +96,7 @@ def steadied(brush: Brush) -> Brush:
     if not feels(brush):
         return brush
     kept = {name: knots_of(brush.dynamics[name]) for name in DYNAMIC if name in brush.dynamics}
-    return replace(brush, shape=ROUND, dynamics=Map(kept), wet=None)
+    return replace(brush, shape=ROUND, dynamics=Map(kept), wet=None, fixed=FIXED_TO[0])
 
 
 def is_turned(brush: Brush) -> bool:
@@ -108,10 +110,16 @@ def is_turned(brush: Brush) -> bool:
 
 def tints_of(brush: Brush) -> int:
     """Returns how many tints each dab has: three of its colour, and one of each component of the ink; 0 where none of
-    these follow anything, and the brush is not wet."""
+    these follow anything, lie on the canvas, and the brush is not wet."""
     names = {*COLOUR_TARGETS, *(f"ink_{n + 1}" for n in range(len(brush.ink)))}
-    own = brush.row.lays_ink and (brush.wet is not None or bool(names & set(brush.dynamics)))
+    own = brush.wet is not None or bool(names & set(brush.dynamics)) or (is_placed(brush) and bool(brush.ink))
+    own = own and brush.row.lays_ink
     return 3 + len(brush.ink) if own else 0
+
+
+def is_placed(brush: Brush) -> bool:
+    """Tells whether each dab says where its textures lie."""
+    return brush.fixed != FIXED_TO[0] and (brush.density is not None or (brush.row.lays_ink and bool(brush.ink)))
 
 
 def hair_size(brush: Brush) -> float:
@@ -144,14 +152,9 @@ def feeling(brush: Brush) -> Feeling:
             rows.append((number, NUMBERS[felt], len(knots), len(knots) + len(given)))
             knots += given
     curves = np.array(rows, np.int64).reshape(-1, 4)
-    follow = FOLLOWS.index(brush.shape.follow)
     used = np.zeros(len(NUMBERS), np.bool_)
     used[curves[:, 1]] = True
-    used[DIRECTION] |= follow == 1
-    used[ROTATION] |= follow == 2
-    used[TILT_DIRECTION] |= follow == 2
-    turned = is_turned(brush)
-    plan = follow if turned or brush.shape.bristles else 0, used[DIRECTION], turned, brush.shape.count, tints_of(brush)
+    plan = _plan(brush, used)
     own = [
         getattr(brush if name in DYNAMIC else brush.shape, name) if row.own is None else row.own
         for name, row in FOLLOWERS.items()
@@ -165,11 +168,23 @@ def feeling(brush: Brush) -> Feeling:
         curves,
         np.array(knots, np.float64).reshape(-1, 2),
         used,
-        np.array(plan, np.int64),
+        plan,
         min(max(part * brush.radius, least), most),
         np.empty((0, 4)),
         1.0,
     )
+
+
+def _plan(brush: Brush, used: np.ndarray) -> np.ndarray:
+    """Returns the `plan` of a Feeling; marks the inputs that it uses."""
+    follow, turned = FOLLOWS.index(brush.shape.follow), is_turned(brush)
+    place = FIXED_TO.index(brush.fixed) if is_placed(brush) else 0
+    used[DIRECTION] |= follow == 1 or place == 1
+    used[ROTATION] |= follow == 2
+    used[TILT_DIRECTION] |= follow == 2
+    looks = follow if turned or brush.shape.bristles or place == 2 else 0
+    told = looks, used[DIRECTION], turned, brush.shape.count, tints_of(brush), place
+    return np.array(told, np.int64)
 
 
 def with_hairs(felt: Feeling, brush: Brush, key: int) -> Feeling:

@@ -28,6 +28,7 @@ _STREAKS, _MOST_HAIRS = 1 << 41, 256  # numbers of what streaks hang on
 _STREAK = 5.0  # radii along a streak
 _OWN, _WET, _SHARP = 0.6, 1.0, 2.5  # of a hair: how much its load counts beside streaks; when it is dry
 _TURN = 6.283185307179586
+_PATCH, _FAR = 1 << 42, 8192.0  # number of what the place of textures hangs on; px
 _DEGREE = 0.017453292519943295
 
 
@@ -37,6 +38,24 @@ def _tint(felt: Feeling, now: Array, dab: Array) -> None:
     first = dab.shape[0] - felt.plan[f.HAS_TINTS]
     for k in range(felt.plan[f.HAS_TINTS]):
         dab[first + k] = now[HUE + k]
+
+
+@inner
+def _locate(felt: Feeling, key: np.uint64, sensed: Array, now: Array, aside: tuple[float, float], dab: Array) -> None:
+    """Writes where the textures of a dab lie that are fixed to the stroke, or to the dab: what brings a place of it,
+    from its middle, into them.  `aside`: how far it lies from the place that is theirs."""
+    if not felt.plan[f.HAS_PLACE]:
+        return
+    first = dab.shape[0] - felt.plan[f.HAS_TINTS] - f.PLACE_COLUMNS
+    along, turn = 0.0, now[ANGLE]
+    if felt.plan[f.HAS_PLACE] == 1:
+        along, turn = sensed[inputs.DISTANCE], sensed[inputs.DIRECTION]
+    angle = (turn - 360.0 * math.floor(turn / 360.0)) * _DEGREE
+    c, s = cos(angle), sin(angle)
+    dab[first], dab[first + 1], dab[first + 2], dab[first + 3] = c, s, -s, c
+    u, v = c * aside[0] + s * aside[1], c * aside[1] - s * aside[0]
+    dab[first + 4] = u + along + math.floor(chance(key, _PATCH, 0) * _FAR)
+    dab[first + 5] = v + math.floor(chance(key, _PATCH, 1) * _FAR)
 
 
 @inner
@@ -51,7 +70,15 @@ def _write(x: float, y: float, felt: Feeling, now: Array, dab: Array) -> None:
 
 @inner
 def _write_hairs(
-    x: float, y: float, felt: Feeling, key: np.uint64, gone: float, now: Array, dabs: Array, made: Int
+    x: float,
+    y: float,
+    felt: Feeling,
+    key: np.uint64,
+    sensed: Array,
+    aside: tuple[float, float],
+    now: Array,
+    dabs: Array,
+    made: Int,
 ) -> Int:
     """Writes a dab for each hair; returns how many there are now.
 
@@ -61,7 +88,7 @@ def _write_hairs(
     angle = (now[ANGLE] - 360.0 * math.floor(now[ANGLE] / 360.0)) * _DEGREE
     across, down, most = now[RADIUS] * cos(angle), now[RADIUS] * sin(angle), felt.values[OPACITY]
     wet = _WET * now[OPACITY] / most if most > 0.0 else 0.0
-    along = gone / (_STREAK * max(felt.values[RADIUS], 1.0))
+    along = sensed[inputs.DISTANCE] / (_STREAK * max(felt.values[RADIUS], 1.0))
     streak = math.floor(along)
     part = along - streak
     part = part * part * (3.0 - 2.0 * part)
@@ -76,6 +103,7 @@ def _write_hairs(
             dab[2], dab[3] = now[RADIUS] * felt.fine * hair[2], most * min(1.0, max(0.0, (wet - dry) * _SHARP))
             dab[4], dab[5] = now[FLOW], now[HARDNESS]
             _tint(felt, now, dab)
+            _locate(felt, key, sensed, now, (aside[0] + dab[0] - x, aside[1] + dab[1] - y), dab)
         made += 1
     return made
 
@@ -108,11 +136,13 @@ def _place(
             aside = chance(key, first + k, _ASIDE) * _TURN
             away = math.sqrt(chance(key, first + k, _AWAY)) * now[SCATTER] * now[RADIUS]
             dx, dy = away * cos(aside), away * sin(aside)
+        own = (dx, dy) if felt.plan[f.HAS_PLACE] == 1 else (0.0, 0.0)
         if felt.hairs.shape[0] > 0:
-            made = _write_hairs(x + dx, y + dy, felt, key, sensed[inputs.DISTANCE], now, dabs, made)
+            made = _write_hairs(x + dx, y + dy, felt, key, sensed, own, now, dabs, made)
             continue
         if made < dabs.shape[0]:
             _write(x + dx, y + dy, felt, now, dabs[made])
+            _locate(felt, key, sensed, now, own, dabs[made])
         made += 1
     return made, step
 

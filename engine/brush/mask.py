@@ -42,6 +42,7 @@ class Coverage:
 
     `tiles`: by key, M as float32 (128, 128), or one float where M is the same all over; between grid values, in 0..1.
     `rect`: pixels of `level` outside which M is 0.  `tints`: of strokes whose dabs have some, their means (`tinting`).
+    `places`: of strokes that have textures of their own, where pixels lie in them (`located`), float32 (2, 128, 128).
     """
 
     level: int
@@ -49,6 +50,7 @@ class Coverage:
     rect: Rect
     stain: Stain | None = None
     tints: Mapping[TileKey, np.ndarray] | None = None
+    places: Mapping[TileKey, np.ndarray] | None = None
 
     @cached_property
     def keys(self) -> tuple[TileKey, ...]:
@@ -110,14 +112,14 @@ class StrokeMask:
         """Returns what is covered so far, as a value that later dabs do not change."""
         self._lent = set(self._tiles)
         self._places.clear()
-        return Coverage(self.level, dict(self._tiles), self.rect, tints=self._tints())
+        tints, places = self._tip.told() if isinstance(self._tip, Tinted) else (None, None)
+        return Coverage(self.level, dict(self._tiles), self.rect, None, self._by_key(tints), self._by_key(places))
 
-    def _tints(self) -> dict[TileKey, np.ndarray] | None:
-        if not isinstance(self._tip, Tinted):
+    def _by_key(self, told: dict[tuple[int, int], np.ndarray] | None) -> dict[TileKey, np.ndarray] | None:
+        if told is None:
             return None
         left, top = self._corner
-        told = self._tip.told().items()
-        return {TileKey(self.level, left + x // TILE, top + y // TILE): tile for (x, y), tile in told}
+        return {TileKey(self.level, left + x // TILE, top + y // TILE): tile for (x, y), tile in told.items()}
 
     def paint(self, dabs: np.ndarray) -> set[TileKey]:
         """Lays dabs, float64 (n, 6 or more) of `Stroker.add`, in order; returns the tiles that may have changed.

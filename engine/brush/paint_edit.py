@@ -60,7 +60,8 @@ class Painting(Covered):
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
         if self.coverage.tints is not None and key in self.coverage.tints:
             assert isinstance(self.ink, TintedInk)
-            inks, add = self._varied(keep, old, self.ink.tinted(key, self.coverage.tints[key]))
+            places = self.coverage.places[key] if self.coverage.places is not None else None
+            inks, add = self._varied(keep, old, self.ink.tinted(key, self.coverage.tints[key], places))
         elif self.ink.swayed:
             inks, add = self._sway(keep, key, old)
         elif self.locked:

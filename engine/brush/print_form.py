@@ -8,7 +8,7 @@ import numpy as np
 
 TwoInts = tuple[int, int]
 Plane = np.ndarray
-ThreePlanes = tuple[np.ndarray, np.ndarray, np.ndarray]
+Planes4 = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 class Print(Protocol):
@@ -19,10 +19,10 @@ class Print(Protocol):
         ...
 
     def lay_tinted(
-        self, planes: ThreePlanes, discs: np.ndarray, which: np.ndarray, count: TwoInts, corner: TwoInts
+        self, planes: Planes4, discs: np.ndarray, which: np.ndarray, count: TwoInts, corner: TwoInts
     ) -> None:
-        """As `lay`, each disc with its tints, its last columns: into coverage (128, 128), and tints (n, 128, 128), by
-        a plane of zeros between them."""
+        """As `lay`, each disc with its tints, its last columns.  `planes`: coverage, and zeros, (128, 128) each; tints
+        (n, 128, 128); where textures lie, by six columns before the tints, (2, 128, 128), or none (0, 128, 128)."""
         ...
 
     def of_copy(self, number: int) -> Print:

@@ -20,7 +20,7 @@ from engine.brush.copies import NO_COPIES, Copies, Torus
 from engine.brush.discs import CEILING, CX, CY, DISC, RATE, RIN2, ROUT
 from engine.brush.felt import is_turned
 from engine.brush.ink import Texture
-from engine.brush.print_form import Print, ThreePlanes, TwoInts
+from engine.brush.print_form import Planes4, Print, TwoInts
 from engine.brush.settings import Brush
 from engine.brush.tip import Pattern, between_pixels, sample_for, ways_of
 from engine.numeric.address import TILE
@@ -55,7 +55,7 @@ class Oval:
         kind = _WINDOW if self.pattern.windows else _SAMPLE
         return kind, np.uint64(self.pattern.key), self.pattern.planes, self.pattern.sizes
 
-    def lay_tinted(self, planes: ThreePlanes, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
+    def lay_tinted(self, planes: Planes4, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
         """As `Print.lay_tinted`."""
         _lay_tinted(planes, discs, which, count, corner, (self.ways, self.fill))
 
@@ -186,7 +186,7 @@ def _window(
 
 @kernel
 def _lay_tinted(
-    planes: tuple[Array, Array, Array],
+    planes: tuple[Array, Array, Array, Array],
     discs: Array,
     which: Array,
     count: tuple[int, int],
@@ -198,4 +198,4 @@ def _lay_tinted(
         one = which[k : k + 1]
         lay_ovals(planes[0], discs, one, count, corner, how[0], how[1])
         lay_ovals(planes[1], discs, one, count, corner, how[0], how[1])
-        blend(planes[0], planes[1], planes[2], discs[which[k]], corner[0], corner[1])
+        blend(planes, discs[which[k]], corner[0], corner[1])

@@ -24,6 +24,7 @@ import numpy as np
 from engine.brush import extent
 from engine.brush.extent import Extent
 from engine.brush.ink import Texture, named
+from engine.brush.located import Patches, located
 from engine.brush.mask import Coverage
 from engine.brush.parts import Surface
 from engine.brush.rim import Rim, Tiles
@@ -39,6 +40,7 @@ from engine.texture.image import ImageSource
 from engine.texture.record import Instance
 
 SOFTNESS = 0.35  # of the line between what a brush touches and what it does not, in heights
+Places = Mapping[TileKey, np.ndarray] | None
 _MEMO = 192  # tiles of heights kept: 12 MB
 _AVERAGED = 3  # levels coarser than the grain's coarsest at which it is averaged; beyond, it is level
 
@@ -56,6 +58,7 @@ class Heights:
     made: Instance
     curve: np.ndarray
     _memo: dict[TileKey, np.ndarray] = field(default_factory=dict, repr=False)
+    _patches: Patches | None = None  # of the one level of a stroke
 
     def plane(self, key: TileKey) -> np.ndarray:
         """float32 (128, 128), 0..1, not to be written to."""
@@ -67,6 +70,15 @@ class Heights:
                 self._memo.pop(next(iter(self._memo)), None)
             self._memo[key] = known
         return known
+
+    def at(self, places: np.ndarray, level: int) -> np.ndarray:
+        """As `plane`, where the pixels lie in the texture, float32 (2, 128, 128)."""
+        if self._patches is None:
+            object.__setattr__(self, "_patches", Patches(lambda rect: grey(self.made, level, rect)[None]))
+        assert self._patches is not None
+        found = np.ascontiguousarray(located(places, self._patches)[0])
+        look_up(found.reshape(-1), self.curve, _ONE, _ZERO)
+        return found
 
     def _values(self, level: int, rect: Rect) -> np.ndarray:
         above = self.made.base - level
@@ -152,12 +164,12 @@ class Relief:
             return coverage
         stain = None
         if self.rim is not None and self.rim.colour is not None:
-            stain = _Stain(self, coverage.tiles, self.rim, self.rim.colour)
-        tiles = coverage.tiles
-        return replace(coverage, tiles=LazyTiles(tiles, lambda key: self.made(tiles, key).tile), stain=stain)
+            stain = _Stain(self, coverage.tiles, self.rim, self.rim.colour, coverage.places)
+        tiles, places = coverage.tiles, coverage.places
+        return replace(coverage, tiles=LazyTiles(tiles, lambda key: self.made(tiles, key, places).tile), stain=stain)
 
-    def made(self, tiles: Tiles, key: TileKey) -> _Made:
-        """Returns one tile of a coverage, thinned."""
+    def made(self, tiles: Tiles, key: TileKey, places: Places = None) -> _Made:
+        """Returns one tile of a coverage, thinned; `places`: as of a Coverage."""
         covered = tiles[key]
         sources = self.rim.around(tiles, key) if self.rim else (covered,)
         known = self._done.get(key)
@@ -165,10 +177,12 @@ class Relief:
         if known is not None and all(a is b for a, b in zip(known.sources, sources, strict=True)):
             return known
         depths = self.rim.depths(sources) if self.rim else None
-        made = self._done[key] = _Made(sources, self._tile(covered, key, depths), depths)
+        made = self._done[key] = _Made(sources, self._tile(covered, key, depths, (places or {}).get(key)), depths)
         return made
 
-    def _tile(self, covered: np.ndarray | float, key: TileKey, depths: np.ndarray | None) -> np.ndarray | float:
+    def _tile(
+        self, covered: np.ndarray | float, key: TileKey, depths: np.ndarray | None, places: np.ndarray | None
+    ) -> np.ndarray | float:
         if not isinstance(covered, np.ndarray):
             if covered == 0.0:
                 return covered
@@ -181,7 +195,8 @@ class Relief:
         if self.grain is not None:
             _dig(out, self.grain.plane(key), np.float32(self.amounts[1]), out)
         if self.density is not None:
-            _thin(out, self.density.plane(key), np.float32(self.amounts[0]))
+            values = self.density.plane(key) if places is None else self.density.at(places, key.level)
+            _thin(out, values, np.float32(self.amounts[0]))
         return out
 
 
@@ -193,9 +208,10 @@ class _Stain:
     tiles: Tiles
     rim: Rim
     colour: np.ndarray
+    places: Places
 
     def part(self, key: TileKey) -> np.ndarray | None:
-        depths = self.relief.made(self.tiles, key).depths
+        depths = self.relief.made(self.tiles, key, self.places).depths
         return None if depths is None else self.rim.stain(depths)
 
 

@@ -29,6 +29,7 @@ MOST_DETAIL = 4
 
 MOST_HEIGHT = 4000.0  # px of the stroke's level
 AUTO = "auto"
+FIXED_TO = ("canvas", "stroke", "dab")
 
 Curve = str | Knots  # "pressure", or knots [in, out]
 Thickness = float | str | None
@@ -115,7 +116,8 @@ class Brush:
     `height`: what it heaps on the layer of heights in place of its paint, in pixels of the stroke's level, negative to
     carve, "auto" for a quarter of the radius; None: its paint, by whose brightness that layer is as high.  `impasto`:
     how thick its paint lies on other layers, likewise.
-    `shape`: of its tip.  `wet`: how it mixes its paint with what lies there; None: not at all.  `dynamics`: by target
+    `shape`: of its tip.  `wet`: how it mixes its paint with what lies there; None: not at all.
+    `fixed`: what its textures, those of ink and density, lie still on, one of FIXED_TO.  `dynamics`: by target
     (module `targets`), the curve of pen pressure by which its value is
     multiplied, or those of several inputs by their names; the value of what has no curve stays as it is.
     `extra`: members of the JSON form that this version does not know.
@@ -145,6 +147,7 @@ class Brush:
     impasto: float = 0.0
     shape: TipShape = ROUND
     wet: Wet | None = None
+    fixed: str = FIXED_TO[0]
     dynamics: Map[str, Any] = field(default_factory=lambda: Map({"opacity": "pressure"}))
     extra: Map[str, Any] = field(default_factory=Map)
 
@@ -152,6 +155,7 @@ class Brush:
         for name, row in SETTINGS.items():
             object.__setattr__(self, name, checks.number(getattr(self, name), f"brush.{name}", row.lo, row.hi))
         checks.one_of(self.mode, "brush.mode", tuple(MODES))
+        checks.one_of(self.fixed, "brush.fixed", FIXED_TO)
         object.__setattr__(self, "colour", checks.colour(self.colour, "brush.colour"))
         for name in ("depth", "example_level", "example_detail", "height", "impasto"):
             object.__setattr__(self, name, _READERS[name](getattr(self, name), f"brush.{name}"))
@@ -227,6 +231,7 @@ _RARE: dict[str, Any] = {
     "impasto": 0.0,
     "shape": ROUND,
     "wet": None,
+    "fixed": FIXED_TO[0],
 }
 
 
@@ -271,5 +276,6 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "impasto": lambda value, place: checks.number(value, place, -MOST_HEIGHT, MOST_HEIGHT),
     "shape": tip_shape,
     "wet": _optional(wet),
+    "fixed": lambda value, place: checks.one_of(value, place, FIXED_TO),
     "dynamics": follow_curves.dynamics,
 }

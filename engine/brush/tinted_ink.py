@@ -14,11 +14,13 @@ import numpy as np
 
 from engine.brush import sway
 from engine.brush.ink import Ink, Texture, resolve
+from engine.brush.located import Patches, located
 from engine.brush.settings import Brush
 from engine.numeric.address import Rect, TileKey
 from engine.texture.image import ImageSource
 from engine.texture.planes import sort_key
 from engine.texture.record import Instance
+from engine.texture.rock import Rock
 
 _LOWEST, _HIGHEST = "#000000", "#ffffff"
 _SAMPLE = Rect(0, 0, 64, 64)  # by whose pixels the mean of a texture is told
@@ -51,6 +53,7 @@ class TintedInk(Ink):
 
     parts: tuple[_Part, ...] = ()
     level: int = 0
+    _patches: dict[Instance, Patches] = field(default_factory=dict, repr=False)
     _means: dict[Instance, np.ndarray] = field(default_factory=dict, repr=False)
 
     def mean_of(self, made: Instance) -> np.ndarray:
@@ -74,12 +77,19 @@ class TintedInk(Ink):
         held: np.ndarray = np.clip(out, 0.0, 1.0)
         return held
 
+    def _seen(self, made: Instance, key: TileKey, places: np.ndarray | None) -> np.ndarray:
+        if places is None:
+            return made.appearance(key.level, key.rect)[:3]
+        if made not in self._patches:
+            self._patches[made] = Patches(lambda rect: made.appearance(self.level, rect)[:3])
+        return located(places, self._patches[made])
+
     def rough(
-        self, key: TileKey, colour: np.ndarray, amounts: np.ndarray
+        self, key: TileKey, colour: np.ndarray, amounts: np.ndarray, places: np.ndarray | None
     ) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
         """Returns, of a tile, by how much the ink differs from what it is on the whole under one `colour`, float32
         (3,), float32 (3, 128, 128); the amplitudes of its instances, and these.  `amounts`: of each part, float32
-        (parts, 128, 128)."""
+        (parts, 128, 128); `places`: as of `tinted`."""
         found: dict[Instance, np.ndarray] = {}
         for part, amount in zip(self.parts, amounts, strict=True):
             for made, amplitude in part.amplitudes:
@@ -88,12 +98,15 @@ class TintedInk(Ink):
         inks = tuple(sorted(found, key=lambda made: sort_key(made.key)))
         out = np.zeros((3, *amounts.shape[1:]), np.float32)
         for made in inks:
-            seen = made.appearance(key.level, key.rect)[:3]
-            out += found[made] * (seen - self.mean_of(made)[:, None, None])
+            out += found[made] * (self._seen(made, key, places) - self.mean_of(made)[:, None, None])
+        inks = _going_on(inks, places)
         return out, np.concatenate([found[made] for made in inks]) if inks else out[:0], inks
 
-    def tinted(self, key: TileKey, tints: np.ndarray) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
-        """Under tints, float32 (3 + parts, 128, 128), of a tile: as `Ink.under`."""
+    def tinted(
+        self, key: TileKey, tints: np.ndarray, places: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
+        """Under tints, float32 (3 + parts, 128, 128), of a tile: as `Ink.under`.  `places`: where its pixels lie in the
+        textures (`located`), if these do not lie on the canvas: then only rock goes on at finer levels."""
         under = tints[:3]
         found: dict[Instance, np.ndarray] = {}
         colour = under.copy()
@@ -104,10 +117,17 @@ class TintedInk(Ink):
                 found[made] = found[made] + more if made in found else more
         inks = tuple(sorted(found, key=lambda made: sort_key(made.key)))
         for made in inks:
-            colour += found[made] * made.appearance(key.level, key.rect)[:3]
+            colour += found[made] * self._seen(made, key, places)
+        inks = _going_on(inks, places)
         planes = [found[made] for made in inks]
         empty = np.empty((0, *under.shape[1:]), np.float32)
         return colour, np.concatenate(planes) if planes else empty, inks
+
+
+def _going_on(inks: tuple[Instance, ...], places: np.ndarray | None) -> tuple[Instance, ...]:
+    """Returns those that add detail at finer levels: all of the canvas; elsewhere only what has no direction, so that
+    it does not show that it lies on the canvas."""
+    return inks if places is None else tuple(made for made in inks if isinstance(made, Rock))
 
 
 def tinted_ink(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> TintedInk:

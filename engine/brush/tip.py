@@ -19,7 +19,7 @@ from engine.brush.copies import Copies, Copy, Torus
 from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
 from engine.brush.ink import Texture, named
 from engine.brush.parts import Tip
-from engine.brush.print_form import ThreePlanes, TwoInts
+from engine.brush.print_form import Planes4, TwoInts
 from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect
 from engine.numeric.curves import Shape
@@ -74,12 +74,12 @@ class Pattern:
         else:
             _lay_copies(coverage, discs, which, *count, self.ways, *corner, self.planes, self.sizes)
 
-    def lay_tinted(self, planes: ThreePlanes, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
+    def lay_tinted(self, planes: Planes4, discs: Array, which: Array, count: TwoInts, corner: TwoInts) -> None:
         """As `Print.lay_tinted`."""
         for k in range(len(which)):
             for plane in planes[:2]:
                 self.lay(plane, discs, which[k : k + 1], count, corner)
-            blend_one(*planes, discs[which[k]], *corner)
+            blend_one(planes, discs[which[k]], *corner)
 
     def of_copy(self, number: int) -> Pattern:
         """Returns the pattern for the dabs of one copy alone; 0: of the stroke itself."""

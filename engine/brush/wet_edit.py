@@ -37,8 +37,8 @@ def wet_stamp(edit: Covered, key: TileKey, old: Planes) -> Stamp | None:
     if tints is None or wet is None:
         return None
     assert isinstance(ink, TintedInk)
-    covered = edit.coverage.on_grid(key)
-    rough, planes, inks = ink.rough(key, np.array(edit.brush.rgb, np.float32), tints[3:-1])
+    covered, places = edit.coverage.on_grid(key), (edit.coverage.places or {}).get(key)
+    rough, planes, inks = ink.rough(key, np.array(edit.brush.rgb, np.float32), tints[3:-1], places)
     keep = _ONE - _snapped(covered * tints[-1])
     if not (keep < _ONE).any():
         return None

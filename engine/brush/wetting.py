@@ -16,7 +16,7 @@ from engine.brush import felt
 from engine.brush.checks import BrushError
 from engine.brush.copies import Copies, Torus, each
 from engine.brush.dynamics import most_of
-from engine.brush.mask import StrokeMask
+from engine.brush.located import PlacedMask
 from engine.brush.print_form import Print
 from engine.brush.settings import Brush
 from engine.brush.soaking import CARRIED, TIP, soak
@@ -142,15 +142,22 @@ class Wetting:
             fill(self._slab, slot, *own, self._manner.told)
 
 
-class WetMask(StrokeMask):
+class WetMask(PlacedMask):
     """The coverage of a stroke whose dabs a wet brush colours before they are laid."""
 
-    def __init__(self, wetting: Wetting, place: tuple[int, tuple[int, int]], tip: Print, each: int) -> None:
-        super().__init__(*place, tip=tip, each=each)
+    def __init__(
+        self,
+        wetting: Wetting,
+        place: tuple[int, tuple[int, int]],
+        tip: Print,
+        copies: Copies | Torus,
+        columns: int | None,
+    ) -> None:
+        super().__init__(place, tip, copies, columns)
         self._wetting = wetting
 
     def paint(self, dabs: np.ndarray) -> set[TileKey]:
-        """As `StrokeMask.paint`."""
+        """As `PlacedMask.paint`."""
         return super().paint(self._wetting.soaked(dabs))
 
 
@@ -164,7 +171,7 @@ def _coarser(brush: Brush) -> int:
 
 def _manner(brush: Brush, wet: Wet, copies: Copies | Torus, locked: bool, above: int) -> Manner:
     turned = felt.is_turned(brush)
-    first = len(_BEFORE) + (3 if turned else 0)
+    first = len(_BEFORE) + (3 if turned else 0) + (felt.PLACE_COLUMNS if felt.is_placed(brush) else 0)
     return Manner(
         PIGMENT if wet.pigment else LIGHT,
         np.array([log2(max(wet.length, _LEAST)), wet.amount, wet.dilution, 2.0**-above, 0.0, 0.0, felt.fine_of(brush)]),

@@ -11,8 +11,9 @@ from engine.brush import copies as copying
 from engine.brush import edits, prints, relief
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
-from engine.brush.felt import tints_of
+from engine.brush.felt import is_placed, tints_of
 from engine.brush.footprint import Footprint
+from engine.brush.located import PlacedMask
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.stamp import Edit
 from engine.brush.thinning import Thinning
@@ -67,7 +68,9 @@ class LiveStroke(Drawn):
     def _new_mask(self) -> StrokeMask:
         laid, tints = prints.for_copies(self._tip, self.copies), tints_of(self.brush)
         if self.brush.wet is not None and tints and isinstance(self._ink, TintedInk):
-            return wet_mask(self, self._ink, Tinted(laid, tints + WET_COLUMNS))
+            return wet_mask(self, self._ink, Tinted(laid, tints + WET_COLUMNS, is_placed(self.brush)))
+        if is_placed(self.brush):
+            return PlacedMask((self.level, self.origin), Tinted(laid, tints, True), self.copies, tints)
         laid = Tinted(laid, tints) if tints else laid
         return StrokeMask(self.level, self.origin, tip=laid, each=copying.each(self.copies))
 

@@ -6,10 +6,10 @@ from functools import partial
 
 import numpy as np
 
-from engine.brush.copies import each
+from engine.brush.felt import is_placed, tints_of
 from engine.brush.print_form import Print
 from engine.brush.tinted_ink import TintedInk
-from engine.brush.wetting import WetMask, Wetting
+from engine.brush.wetting import WET_COLUMNS, WetMask, Wetting
 from engine.canvas.layers import Layer
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
@@ -37,4 +37,5 @@ def wet_mask(stroke: Drawn, ink: TintedInk, tip: Print) -> WetMask:
     see = partial(_see, layer, cache)
     place, copies = (level, stroke.origin), stroke.copies
     wetting = Wetting(stroke.brush, ink, place, see, chosen, layer.alpha_locked, copies, cell)
-    return WetMask(wetting, place, tip, each(copies))
+    columns = tints_of(stroke.brush) + WET_COLUMNS if is_placed(stroke.brush) else None
+    return WetMask(wetting, place, tip, copies, columns)

@@ -34,6 +34,11 @@ from engine.brush.settings import SETTINGS
 from engine.studio.requests import Swatch
 
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
+_FIXED = (
+    ("canvas", "On canvas", "Textures lie still on the canvas: strokes merge"),
+    ("stroke", "On stroke", "Textures turn and run with each stroke, as brush marks do"),
+    ("dab", "On dab", "Every dab has the same piece of the texture"),
+)  # what the ink's and the dry brush's textures lie on
 _ACROSS = 7  # buttons of tools in a row
 
 
@@ -105,12 +110,12 @@ class BrushPanel:
             section = desk.hand.stroke_mode().section
             if section:
                 self._sections[section](desk)
+        self._wet.draw(desk)
         self._texturing.draw(desk)
         if w.section("Symmetry", "Strokes painted several times in one step", opened=False):
             self._symmetry.draw(desk)
         if w.section("Tip shape", "Slender, turned with the stroke or the pen, strewn", opened=False):
             tip_section.draw(desk)
-        self._wet.draw(desk)
         if w.section("Pen and motion", "What pressure, tilt, speed, chance change", opened=False):
             self._dynamics.draw(desk)
 
@@ -183,6 +188,17 @@ class BrushPanel:
 
         draw_steadying(desk)
         draw_thickness(desk)
+        _draw_fixed(desk)
+
+
+def _draw_fixed(desk: Desk) -> None:
+    """Draws what the brush's textures lie still on, where it has any that may move."""
+    brush = desk.hand.brush
+    if brush.density is None and not (brush.ink and brush.row.lays_ink):
+        return
+    fixed = w.segments("fixed", brush.fixed, _FIXED)
+    if fixed is not None:
+        desk.hand.change(fixed=fixed)
 
 
 def _percent(value: float, form: str, lo: float, hi: float, unit: str) -> tuple[float, str, float, float]:

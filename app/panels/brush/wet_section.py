@@ -26,13 +26,13 @@ class WetSection:
     def __init__(self) -> None:
         self._kept = Wet(mixing="pigment")
 
-    def draw(self, desk: Desk) -> None:
-        """Draws it into the present window."""
+    def draw(self, desk: Desk) -> float:
+        """Draws it into the present window; how high what is unfolded is."""
         if not desk.hand.stroke_mode().lays_ink:
-            return
+            return 0.0
         held = desk.hand.brush.wet
         shown, on = w.switched_section("Wet paint", _SECTION, held is not None)
-        now = held or self._kept
+        now, top = held or self._kept, imgui.get_cursor_pos().y
         if shown:
             imgui.begin_disabled(not on)
             now = _settings(now)
@@ -41,6 +41,7 @@ class WetSection:
             self._kept = now
         if (now if on else None) != held:
             desk.hand.change(wet=now if on else None)
+        return imgui.get_cursor_pos().y - top
 
 
 def _settings(wet: Wet) -> Wet:

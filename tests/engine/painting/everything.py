@@ -239,7 +239,8 @@ def _areas() -> Iterator[tuple[str, list[Any]]]:
 
 
 def _wet() -> Iterator[tuple[str, list[Any]]]:
-    """Strokes that take up what lies there: by each way of mixing, with hairs, a slender tip, ink and copies."""
+    """Strokes that take up what lies there, by each way of mixing, with hairs, a slender tip, ink and copies; and those
+    that textures run along with."""
     under = [GROUND, stroke(*BACK, colour="#2040c0", radius=11)]
     taking = {"length": 0.83, "amount": 0.61}
     yield "wet-light", [*under, stroke(wet={**taking, "dilution": 0.23}, ink=[ink("rock", period=13.7)])]
@@ -247,10 +248,16 @@ def _wet() -> Iterator[tuple[str, list[Any]]]:
     yield "wet-pigment", [*under, stroke(wet={**taking, "dilution": 0.4, "mixing": "pigment"}, shape=slender)]
     hairs = stroke(wet={**taking, "mixing": "pigment"}, shape={"bristles": 19, "ratio": 0.6}, level=3, radius=71)
     yield "wet-hairs", [*under, {**hairs, "points": [[8 * x, 8 * y, *rest] for x, y, *rest in LINE]}]
-    yield (
-        "wet-copies",
-        [*under, {**stroke(wet=taking), "symmetry": {"centre": [47.3, 31.1], "count": 3, "mirror": True}}],
-    )
+    running = {
+        "ink": [ink("stripes", **WAVES), ink("rock", period=13.7)],
+        "density": {"texture": "rock", "amount": 0.7},
+    }
+    for fixed in ("stroke", "dab"):
+        command = stroke(fixed=fixed, shape={"ratio": 0.41, "angle": 21.7}, **running)
+        yield f"fixed-{fixed}", [{**command, "copies": [[0.6, 0.8, 31, 7, True]]}]
+    yield "fixed-wet", [*under, stroke(fixed="stroke", wet=taking, **running)]
+    around = {"centre": [47.3, 31.1], "count": 3, "mirror": True}
+    yield "wet-copies", [*under, {**stroke(wet=taking), "symmetry": around}]
 
 
 def _heights() -> Iterator[tuple[str, list[Any]]]:
