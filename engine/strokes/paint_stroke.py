@@ -33,6 +33,7 @@ from engine.numeric.prediction import Predictor
 from engine.painting.grown import threads
 from engine.painting.value import Painting
 from engine.strokes.bed import Bed, Meeting
+from engine.strokes.crowding import refuse_crowd
 from engine.strokes.heap_stroke import NO_EDITS, Untouched, heap_plan
 from engine.strokes.live_stroke import Drawn
 from engine.strokes.mask_painting import edit_of
@@ -54,6 +55,7 @@ class LiveStroke(Drawn):
         self._stroker = Stroker(brush, self.chance)
         self._tip = prints.resolve(brush, textures, level, own)
         self._ink = made.ink_of(brush, textures, level, own)
+        refuse_crowd(self.layer.pyramid, level, self.origin, self._ink)
         self._mask = self._new_mask()
         looks = made.looks(brush, self._ink)
         source = None if looks.layer is None else reader(self.base.root, looks.layer, level, self.cache)
