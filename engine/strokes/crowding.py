@@ -1,4 +1,4 @@
-"""How many inks may meet in one place: each that is there makes a stroke dearer, at every coarser level that holds it."""
+"""How many inks may meet in one place: each that is there makes a stroke dearer, at every coarser level that has it."""
 
 from __future__ import annotations
 
@@ -19,6 +19,6 @@ def refuse_crowd(pyramid: Pyramid, level: int, origin: tuple[int, int], ink: Ink
         record = None if stored is None else stored.get(((origin[0] >> up) // TILE, (origin[1] >> up) // TILE))
         if record is not None and len(record.inks) >= MOST_MEETING and not wanted.issubset(record.inks):
             raise Refusal(
-                f"stroke: found {len(record.inks)} inks here that differ, expected fewer than {MOST_MEETING}: paint with"
-                " one of them, or on another layer"
+                f"stroke: found {len(record.inks)} inks here that differ, expected fewer than {MOST_MEETING}: paint"
+                " with one of them, or on another layer"
             )
