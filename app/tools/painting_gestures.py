@@ -12,7 +12,7 @@ from app.canvas.view import View, place_of_pixel
 from app.desk import palette
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
-from app.desk.examples import cutting_work, example_use
+from app.desk.examples import chart_use, chart_work, cutting_work, example_use
 from app.desk.guides import symmetry
 from app.desk.guides.snapping import Snapper
 from app.desk.guides.tile_seams import tell_seams
@@ -249,6 +249,23 @@ def mark_region(desk: Desk, first: PenEvent) -> Gesture:
         done = True
     finally:
         finding.end(desk.post, done)
+
+
+def draw_map(desk: Desk, first: PenEvent) -> Gesture:
+    """Returns a stroke on a map of an example; as all strokes it may be given up."""
+    state, event, done = desk.examples, first, False
+    state.chart.live = []
+    try:
+        while True:
+            if event.kind in ("down", "move", "up"):
+                state.chart.extend(*state.place(event.x, event.y))
+            if event.kind in ENDS:
+                break
+            event = yield
+        done = True
+    finally:
+        if state.entry is not None:
+            chart_work.use(desk, state.chart.end(chart_use.maps_of(state, state.entry), done))
 
 
 def _post(desk: Desk, points: np.ndarray, form: type[Points | LabPoints | RegionPoints] = Points) -> None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from immutables import Map
 
+from app.desk.examples import chart_use
 from app.desk.examples.example_state import ExampleState
 from engine.brush.parts import BY_STROKE
 from engine.brush.settings import Brush
@@ -22,7 +23,7 @@ def ask_sample(state: ExampleState, post: Callable[[Request], None], now: float)
     """Posts the sample stroke that the panel shows, no faster than it can be seen.  `now`: seconds."""
     entry = state.entry
     drafted = state.tab == "settings"
-    follows = state.follows and state.runs(entry)
+    follows = state.follows and chart_use.runs(state, entry)
     wanted = None if entry is None else (*state.needs(entry, drafted), state.sampled, state.size, follows, entry.here)
     if state.following.due(wanted, now) and wanted is not None and min(state.sampled) > 0:
         state.sampling = state.chosen

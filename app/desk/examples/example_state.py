@@ -18,18 +18,19 @@ import numpy as np
 import platformdirs
 from immutables import Map
 
+from app.desk.examples import charts
+from app.desk.examples.chart_state import ChartState
 from app.desk.examples.finding_state import FindingState
 from app.desk.examples.following import Following
 from app.desk.examples.region_state import RegionState
 from engine.brush.checks import frozen
-from engine.brush.parts import BY_STROKE
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, loads
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
-from engine.texture.example.parameters import ORIENTATION, Parameters, read_toml, with_values
+from engine.texture.example.parameters import Parameters, read_toml, with_values
 
 OWN = "Own"  # the group of the artist's own
 HERE = "In this painting"  # the group of those that only the painting has
@@ -45,7 +46,7 @@ DEPTHS = (-99, 99)
 NOWHERE = Path()  # the files of those that only the painting has
 NAME_CAP = 40  # characters
 _SETTLE = 0.08  # seconds from one painting of the sample stroke to the next
-TABS = ("palette", "region", "settings")
+TABS = ("palette", "region", "maps", "settings")
 KIND = "example"  # of textures
 
 
@@ -66,7 +67,7 @@ class Entry:
     given: str = ""
     steps: tuple[Map[str, Any], ...] = ()
     base: Path | None = None
-    maps: Map[str, Any] = field(default_factory=Map)  # as its file tells them
+    maps: Map[str, object] = field(default_factory=Map)  # as its file tells them
 
     @property
     def ident(self) -> str:
@@ -111,7 +112,7 @@ def load_examples(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
             there = None
         group, title = names.get("group", "Other"), names.get("title", "")
         about = path.stem, OWN if own else group, path, there, parameters, own, sha
-        entry = Entry(*about, given=title, maps=absolute(maps, folder) if own else maps)
+        entry = Entry(*about, given=title, maps=charts.absolute(maps, folder) if own else maps)
         found.append(_painted(entry) if sha else entry)
     return arranged(found), faults
 
@@ -143,7 +144,7 @@ def _painted(entry: Entry) -> Entry:
     return replace(entry, steps=steps, base=base if told.get("base") is True else None) if held else entry
 
 
-def _told(path: Path) -> tuple[Mapping[str, str], Parameters, Map[str, Any], str]:
+def _told(path: Path) -> tuple[Mapping[str, str], Parameters, Map[str, object], str]:
     """Returns the names (`group`, `title`), the parameters and the maps in a file, and what is wrong with it."""
     if not path.is_file():
         return {}, Parameters(), Map(), ""
@@ -152,7 +153,7 @@ def _told(path: Path) -> tuple[Mapping[str, str], Parameters, Map[str, Any], str
         parameters = read_toml(data)
         told = tomllib.loads(data.decode())
         names: dict[str, str] = {name: told[name] for name in ("group", "title") if name in told}
-        maps: Map[str, Any] = frozen(told.get("maps", {}))
+        maps: Map[str, object] = frozen(told.get("maps", {}))
         return names, parameters, maps, ""
     except (OSError, FieldError) as error:
         return {}, Parameters(), Map(), str(error)
@@ -193,7 +194,8 @@ class ExampleState:
     hung: dict[str, Any] = field(default_factory=dict)  # what thumbnails of those of the painting were asked for
     following: Following = field(default_factory=lambda: Following(_SETTLE))
     follows: bool = True  # the pen, where the example tells which way it runs
-    charts: dict[str, Map[str, Any]] = field(default_factory=dict)  # by ident, maps other than those of its file
+    chart: ChartState = field(default_factory=ChartState)  # the map that is painted
+    charts: dict[str, Map[str, object]] = field(default_factory=dict)  # by ident, maps other than those of its file
 
     @property
     def entry(self) -> Entry | None:
@@ -217,7 +219,7 @@ class ExampleState:
 
     def over(self, x: float, y: float) -> bool:
         """Tells whether a point of the screen is on the region."""
-        if self.spot is None or self.region is None or self.tab != "region":
+        if self.spot is None or self.region is None or self.tab not in ("region", "maps"):
             return False
         u, v = self.place(x, y)
         width, height = self.region.scene.size
@@ -260,26 +262,7 @@ class ExampleState:
         """Returns the definition of its texture, as it is painted with or as the settings are."""
         usual = self.used.get(entry.ident, Map())
         told = self.drafts.get(entry.ident, usual) if draft else usual
-        return definition(entry, told, self.maps_of(entry))
-
-    def maps_of(self, entry: Entry) -> Map[str, Any]:
-        """Returns the maps that an example is painted with."""
-        return self.charts.get(entry.ident, entry.maps)
-
-    def runs(self, entry: Entry | None) -> bool:
-        """Tells whether an example tells which way it runs."""
-        if entry is None:
-            return False
-        if entry.here is None:
-            return ORIENTATION in self.maps_of(entry)
-        return any(row[:1] == (ORIENTATION,) for row in entry.here.get("controls", ()))
-
-    def control(self, brush: Brush) -> Map[str, str | float]:
-        """Returns what a brush tells of the chosen example's maps: the way the pen goes, if that is to be followed."""
-        if self.follows and self.runs(self.entry):
-            return brush.control.set(ORIENTATION, BY_STROKE)
-        told = brush.control.get(ORIENTATION)
-        return brush.control.delete(ORIENTATION) if told == BY_STROKE else brush.control
+        return definition(entry, told, self.charts.get(entry.ident, entry.maps))
 
     # --- the brush ---------------------------------------------------------------------------------------------------
 
@@ -298,17 +281,7 @@ class ExampleState:
         return replace(brush, example_level=-max(self.size, 0))
 
 
-def absolute(maps: Mapping[str, Any], folder: Path) -> Map[str, Any]:
-    """Returns maps whose pictures have absolute paths."""
-    found = {}
-    for name, told in maps.items():
-        one = Map({"path": told}) if isinstance(told, str) else told
-        path = one.get("path") if isinstance(one, Map) else None
-        found[name] = one.set("path", str(folder / path)) if isinstance(path, str) else one
-    return Map(found)
-
-
-def definition(entry: Entry, told: Mapping[str, Any], maps: Map[str, Any] = Map()) -> DefineTexture:  # noqa: B008
+def definition(entry: Entry, told: Mapping[str, Any], maps: Map[str, object] = Map()) -> DefineTexture:  # noqa: B008
     """Returns the command that makes an example's texture; `told`: parameters other than its own.
 
     All are told, or a texture of the painting that has others would be taken for this one.

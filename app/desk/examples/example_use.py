@@ -9,7 +9,7 @@ from immutables import Map
 
 from app.desk import palette
 from app.desk.desk import Desk
-from app.desk.examples import example_state
+from app.desk.examples import chart_use, example_state
 from app.desk.examples.example_state import Entry
 from app.desk.hand import go_on_with_brush
 from engine.brush.parts import BY_STROKE
@@ -70,7 +70,7 @@ def follow(desk: Desk) -> None:
     """The brush has the size and depth that are set."""
     state = desk.examples
     if desk.hand.brush.row.grows:
-        control = state.control(desk.hand.brush)
+        control = chart_use.control_of(state, desk.hand.brush)
         members: dict[str, Any] = {**state.levels(), "depth": float(state.depth), "control": control}
         desk.hand.change(**members)
 
@@ -80,8 +80,8 @@ def set_following(desk: Desk, on: bool) -> None:
     so rightwards."""
     state, entry = desk.examples, desk.examples.entry
     state.follows = on
-    if on and entry is not None and entry.here is None and not state.runs(entry):
-        state.charts[entry.ident] = state.maps_of(entry).set(ORIENTATION, Map({"strokes": ()}))
+    if on and entry is not None and entry.here is None and not chart_use.runs(state, entry):
+        state.charts[entry.ident] = chart_use.maps_of(state, entry).set(ORIENTATION, Map({"strokes": ()}))
     take_example(desk)
 
 
@@ -96,7 +96,7 @@ def adopt(desk: Desk) -> None:
     entry = next(found, None) if told is not None else None
     state.chosen = entry.ident if entry is not None else ""
     state.size, state.depth = -brush.example_detail, round(brush.depth or 0)
-    state.follows = brush.control.get(ORIENTATION) == BY_STROKE or not state.runs(entry)
+    state.follows = brush.control.get(ORIENTATION) == BY_STROKE or not chart_use.runs(state, entry)
     fit_size(desk)
 
 

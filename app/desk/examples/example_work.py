@@ -135,7 +135,7 @@ def take_scene(desk: Desk, scene: RegionScene) -> None:
         state.regions[scene.ident] = RegionState.of(scene)
     if state.opening == scene.ident:
         state.opening = ""
-        if state.chosen == scene.ident:
+        if state.chosen == scene.ident and state.tab != "maps":
             state.tab = "region"
 
 
@@ -179,7 +179,7 @@ class _KeepParameters(FileWork):
     parameters: Parameters
 
     def carry_out(self) -> Listing:
-        own_example_files.write_parameters(self.entry.name, self.parameters, self.entry.given)
+        own_example_files.write_parameters(self.entry.name, self.parameters, self.entry.given, self.entry.maps)
         return listing_of(self.entry.name)
 
     def arrive(self, desk: Desk, found: Listing) -> None:
@@ -232,7 +232,7 @@ class _Rename(FileWork):
     title: str
 
     def carry_out(self) -> Listing:
-        own_example_files.write_parameters(self.entry.name, self.entry.parameters, self.title)
+        own_example_files.write_parameters(self.entry.name, self.entry.parameters, self.title, self.entry.maps)
         return listing_of(self.entry.name)
 
     def arrive(self, desk: Desk, found: Listing) -> None:

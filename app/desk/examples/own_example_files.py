@@ -102,7 +102,7 @@ def copy(entry: Entry, parameters: Parameters) -> str:
     _write(_place(name, PICTURE), pixels)
     base = None if entry.base is None else _masked(entry.base)
     write_region(name, inside, entry.steps, base)
-    write_parameters(name, parameters)
+    write_parameters(name, parameters, maps=entry.maps)
     return name
 
 
@@ -136,8 +136,13 @@ def write_region(name: str, inside: np.ndarray, steps: Steps = (), base: np.ndar
         _place(name, ending).unlink(missing_ok=True)
 
 
-def write_parameters(name: str, parameters: Parameters, title: str = "") -> None:
-    """Writes those that are not as usual, and what it is called if not as its files are."""
+def write_parameters(
+    name: str,
+    parameters: Parameters,
+    title: str = "",
+    maps: Map[str, object] = Map(),  # noqa: B008
+) -> None:
+    """Writes those that are not as usual, what it is called if not as its files are, and its maps."""
     usual, lines = asdict(Parameters()), [f'group = "{example_state.OWN}"']
     if title:
         lines.append(f"title = {json.dumps(title, ensure_ascii=False)}")
@@ -145,8 +150,18 @@ def write_parameters(name: str, parameters: Parameters, title: str = "") -> None
         if value != usual[field]:
             told = str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else value
             lines.append(f"{field} = {told}")
+    lines += [f"maps.{json.dumps(one)} = {_toml(chart)}" for one, chart in maps.items()]
     with replacing(_place(name, PARAMETERS)) as file:
         file.write(("\n".join(lines) + "\n").encode())
+
+
+def _toml(value: object) -> str:
+    """Tells a value of a map as TOML does, in one line."""
+    if isinstance(value, Map):
+        return "{ " + ", ".join(f"{json.dumps(name)} = {_toml(part)}" for name, part in value.items()) + " }"
+    if isinstance(value, tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)
 
 
 def delete(name: str) -> None:

@@ -7,7 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions.actions import tip
 from app.desk.desk import Desk
-from app.desk.examples import example_use, thumbnails
+from app.desk.examples import chart_use, example_use, thumbnails
 from app.desk.examples.example_state import DEPTHS
 from app.language import said
 from app.panels.controls import widgets as w
@@ -46,7 +46,7 @@ def draw(desk: Desk) -> None:
     if changed:
         state.depth = depth
         example_use.follow(desk)
-    changed, on = w.tick("Follow the pen", state.follows and state.runs(state.entry), _FOLLOW)
+    changed, on = w.tick("Follow the pen", state.follows and chart_use.runs(state, state.entry), _FOLLOW)
     if changed:
         example_use.set_following(desk, on)
 

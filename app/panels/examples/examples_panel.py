@@ -18,10 +18,11 @@ from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.examples.finding_panel import FindingPanel
 from app.panels.examples.growth_settings import GrowthSettings
+from app.panels.examples.maps_panel import MapsPanel
 from app.panels.examples.own_examples import OwnExamples
 from app.panels.examples.region_panel import RegionPanel
 from app.panels.panel import Painting, Panel
-from app.tools.painting_gestures import mark_region, paint_region
+from app.tools.painting_gestures import draw_map, mark_region, paint_region
 from engine.studio.results import Picture, Scene
 from engine.studio.textures.cut_records import CutFound
 from engine.studio.textures.texture_results import RegionScene
@@ -30,9 +31,11 @@ TILE = 68.0  # side of a thumbnail, points, at least
 NAME = 0.82  # of the font's size
 _SIDE = 250.0  # width of what is told of the one chosen, points
 _STILL = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
+_PICTURED = "region", "maps"  # tabs that show the example's own picture
 _TABS = (
     ("palette", "Palette", "All examples: click one to paint with it"),
     ("region", "Region", "Paint which part of the picture is grown"),
+    ("maps", "Maps", "Tell which way it runs, and how wide its rim is"),
     ("settings", "Settings", "How it is grown: pieces, rim, seams"),
 )
 
@@ -43,6 +46,7 @@ class ExamplesPanel(Panel):
     def __init__(self) -> None:
         self._finding = FindingPanel()
         self._region, self._settings, self._own = RegionPanel(), GrowthSettings(), OwnExamples()
+        self._maps = MapsPanel()
         self._defined: Sequence[Any] | None = None  # what the painting defined when it was last listed
         self.hears = {Scene: self._heard, Picture: _sampled, RegionScene: _painted, CutFound: cutting_work.hear}
 
@@ -52,7 +56,7 @@ class ExamplesPanel(Panel):
         example_use.prepare(desk, now)
         desk.thumbnails(state.entries, side)
         # Not while examples are made ready, or the engine would wait for it, and strokes for the engine.
-        if desk.known.preparing is None and state.tab != "region":
+        if desk.known.preparing is None and state.tab not in _PICTURED:
             example_pictures.ask_sample(state, desk.post, now)
         example_pictures.ask_thumbnails(state, desk.post, side)
 
@@ -60,11 +64,15 @@ class ExamplesPanel(Panel):
         """Returns a stroke in the region."""
         if not desk.examples.over(x, y):
             return None
+        if desk.examples.tab == "maps":
+            return draw_map
         return paint_region if cutting_work.finding_of(desk) is None else mark_region
 
     def takes(self, desk: Desk, action: Action) -> bool:
         """Undo and redo over the region are its own, and so is the size of its brush."""
         at = desk.pointer
+        if desk.examples.tab == "maps":
+            return desk.examples.over(at.x, at.y) and self._maps.takes(desk, action)
         page = self._region if cutting_work.finding_of(desk) is None else self._finding
         return desk.examples.over(at.x, at.y) and page.takes(desk, action)
 
@@ -83,7 +91,7 @@ class ExamplesPanel(Panel):
         """Draws it into the present window."""
         state = desk.examples
         state.spot = None
-        if state.tab == "region" and state.region is None and _has_files(state.entry):
+        if state.tab in _PICTURED and state.region is None and _has_files(state.entry):
             example_work.edit(desk)
         if not _has_files(state.entry) or (state.tab == "region" and state.region is None):
             state.tab = "palette"
@@ -92,6 +100,8 @@ class ExamplesPanel(Panel):
             self._finding.draw(desk, finding)
         elif state.tab == "region":
             self._region.draw(desk)
+        elif state.tab == "maps" and state.region is not None:
+            self._maps.draw(desk)
         elif state.tab == "settings":
             self._settings.draw(desk)
         else:
@@ -100,7 +110,7 @@ class ExamplesPanel(Panel):
     def bar(self, desk: Desk) -> None:
         """Draws the three sides of the panel, in the strip's title line."""
         state, scale = desk.examples, desk.scale
-        wide = 220 * scale
+        wide = 280 * scale
         imgui.same_line(imgui.get_window_width() - wide - imgui.get_frame_height() - 28 * scale)
         imgui.begin_disabled(not _has_files(state.entry))
         imgui.begin_child("tabs", ImVec2(wide, imgui.get_frame_height()))

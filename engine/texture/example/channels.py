@@ -8,6 +8,7 @@ from engine.numeric.kernel import Int, inlined, inner_uncounted
 from engine.texture.example.exemplar import COUNTS
 from engine.texture.example.region_window import Example, Rules, Window
 
+_FREE = 16  # steps, of 255, that are no matter: pixels that are just alike are few, and would come again and again
 _TURNED = 192  # of 256 parts of the angle between two copies, by which a pixel is turned otherwise than is wanted
 AT_SIDE, AT_ACROSS, AT_DOWN, AT_PADDING, AT_COPIES, AT_TURNS = range(6)  # of `Control.turns`
 
@@ -21,6 +22,8 @@ def told_apart(window: Window, y: Int, x: Int, example: Example, name: Int, rule
         apart = np.int32(window.told[c, y, x]) - np.int32(example.told[c, name >> 16, name & 0xFFFF])
         if weight < 0:  # goes round
             apart, weight = ((apart + 128) & 255) - 128, -weight
+        else:
+            apart = np.int32(max(np.int32(0), abs(apart) - _FREE))
         e += np.int32(weight * apart * apart)
     return e
 

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import cloth
+import coats
 import crusts
 import marks
 import numpy as np
@@ -25,7 +26,7 @@ import weather
 from PIL import Image
 
 FOLDER = Path(__file__).resolve().parents[1]
-SUBJECTS = (watercolour, variegated, marks, paper, orange, crusts, stone, plants, weather, cloth)
+SUBJECTS = (watercolour, variegated, marks, paper, orange, crusts, stone, plants, weather, cloth, coats)
 EXAMPLES = {name: make for subject in SUBJECTS for name, make in subject.EXAMPLES.items()}
 
 
