@@ -34,6 +34,7 @@ from app.desk.moving import floating, held_box
 from app.desk.outside import bringing
 from app.desk.places import going
 from app.desk.preferring.preferred import Preferred
+from app.desk.preferring.speaking import SpeakLanguage, spoken
 from app.desk.previews import Previews
 from app.desk.proofing.proof_work import make_tables
 from app.desk.recovery.engine_thread import EngineThread, Start
@@ -49,8 +50,6 @@ from app.input.pointers import Pointers
 from app.input.window_box import box_of_window, kept_window_file
 from app.land.land_screen import LandScreen
 from app.land.land_wants import LandWants
-from app.language.wide_fonts import load_wide_font
-from app.language.words import speak
 from app.news import News
 from app.pace import Pace
 from app.panels.controls.folds import keep_folds_in
@@ -84,18 +83,16 @@ def _resize(desk: Desk, ctx: moderngl.Context, width: int, height: int) -> None:
         ctx.viewport = (0, 0, width, height)
 
 
-def _look(screen: float, preferences: Preferences) -> tuple[float, float, str, str]:
-    """Gives all beside the canvas the preferred look and sizes on a screen of so many pixels per point, and the
-    language; pixels per point then, the font's size, the look and the language that were chosen."""
+def _look(screen: float, preferences: Preferences) -> tuple[float, float, str]:
+    """Gives all beside the canvas the preferred look and sizes on a screen of so many pixels per point; pixels per
+    point then, the font's size, and the look that was chosen."""
     wished = _wished(screen, preferences)
-    theme.apply(*wished[:3])
-    if not load_wide_font(speak(wished[3])):
-        speak("en")
+    theme.apply(*wished)
     return wished
 
 
-def _wished(screen: float, preferences: Preferences) -> tuple[float, float, str, str]:
-    return screen * preferences.scale, preferences.font_size, preferences.look, preferences.language
+def _wished(screen: float, preferences: Preferences) -> tuple[float, float, str]:
+    return screen * preferences.scale, preferences.font_size, preferences.look
 
 
 def _lay_kept(desk: Desk) -> tuple[str, ...]:
@@ -128,6 +125,7 @@ class Window:
         theme.load_fonts(io)
         preferences = read_preferences(preferences_file())[0]  # the engine tells what is wrong with them
         self._look = _look(scale, preferences)
+        spoken(*SpeakLanguage(preferences.language).carry_out())  # before anything is drawn
         width, height = glfw.get_framebuffer_size(handle)
         self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, self._look[0])
         self.desk.preferred = Preferred(preferences, preferences)

@@ -28,24 +28,24 @@ _COLLECTIONS = _BOTH[:3]
 _loaded: set[str] = set()
 
 
-def load_wide_font(code: str) -> bool:
-    """Has the window's font show a language, too; False where no font for it is found."""
+def wide_font(code: str) -> Path | None:
+    """Returns the file of a font for a language that needs another one than the window's; None for others, and where
+    none is found.  It looks through folders."""
+    return _found(_FONTS[code]) if code in _FONTS else None
+
+
+def load_wide_font(code: str, font: Path | None) -> bool:
+    """Has the window's font show a language, too; False where it needs a font and there is none."""
     if code not in _FONTS or code in _loaded:
         return True
-    found = _found(_FONTS[code])
-    if found is None:
+    if font is None:
         return False
     told = imgui.ImFontConfig()
     told.merge_mode = True
-    told.font_no = _FACES[code] if found.name in _COLLECTIONS else 0
-    imgui.get_io().fonts.add_font_from_file_ttf(str(found), 15.0, told)
+    told.font_no = _FACES[code] if font.name in _COLLECTIONS else 0
+    imgui.get_io().fonts.add_font_from_file_ttf(str(font), 15.0, told)
     _loaded.add(code)
     return True
-
-
-def has_letters(code: str) -> bool:
-    """Tells whether there is a font that shows a language."""
-    return code not in _FONTS or code in _loaded or _found(_FONTS[code]) is not None
 
 
 def _found(names: tuple[str, ...]) -> Path | None:

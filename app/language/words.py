@@ -18,7 +18,7 @@ CATALOGUES = Path(__file__).resolve().parents[2] / "palettes" / "languages"
 LANGUAGES = {"en": "English", "de": "Deutsch", "fr": "Français", "ja": "Nihongo", "zh_CN": "Zhongwen"}
 _MOST = 20_000  # texts that are remembered
 _PLACE = re.compile(r"\{(\w+)\}")
-_EDGES = re.compile(r"([\s\ue000-\uf8ff]*)(.*?)(\s*)", re.DOTALL)  # signs before a text, and what is empty
+_EDGES = re.compile(r"([\s\ue000-\uf8ff+]*)(.*?)(\s*)", re.DOTALL)  # signs before a text, and what is empty
 _KEYS = re.compile(r"(.*\S)(  \([^()]+\))", re.DOTALL)  # a hint and its keys
 _OWN = {"name", "path", "stem", "title_of", "file", "layer", "only", "key"}  # places of what is the artist's own
 
@@ -73,9 +73,12 @@ class Words:
             match = form.pattern.fullmatch(text)
             if match is not None:
                 yield self._filled(form.becomes, match.groupdict())
-        for between in (".  ", "; ", ", "):
+        for between in (": ", ".  ", "; ", ", "):
             if between in text and (parts := list(map(self.of, text.split(between)))) != text.split(between):
                 yield between.join(parts)
+        if (sentence := text[:1].upper() + text[1:]) in self._whole:  # in the middle of another one
+            found = self._whole[sentence]
+            yield found if self.code == "de" else found[:1].lower() + found[1:]
 
     def _filled(self, becomes: str, found: dict[str, str]) -> str:
         """Returns a text with its places filled: with the artist's own as it is, else in this language, if that is
@@ -92,7 +95,7 @@ def _pattern(told: str) -> re.Pattern[str]:
     parts = _PLACE.split(told)
     names = iter(parts[1::2])
     return re.compile(
-        "".join(f"(?P<{next(names)}>.+?)" if i % 2 else re.escape(part) for i, part in enumerate(parts)), re.DOTALL
+        "".join(f"(?P<{next(names)}>.*?)" if i % 2 else re.escape(part) for i, part in enumerate(parts)), re.DOTALL
     )
 
 
@@ -123,14 +126,17 @@ def meant(title: str) -> str:
     return _meant.get(title, title)
 
 
-def speak(code: str) -> str:
-    """From now on speaks a language, the system's where that is none; returns its code."""
-    global _spoken
+def read_words(code: str) -> Words | None:
+    """Returns the words of a language, of the system's where that is none; None for English.  It reads a file."""
     code = code if code in LANGUAGES else system_language()
-    if (_spoken.code if _spoken is not None else "en") != code:
-        _meant.clear()
-        _spoken = None if code == "en" else Words(code, read_catalogue(code))
-    return code
+    return None if code == "en" else Words(code, read_catalogue(code))
+
+
+def speak(words: Words | None) -> None:
+    """From now on speaks a language, English where there are no words."""
+    global _spoken
+    _meant.clear()
+    _spoken = words
 
 
 def read_catalogue(code: str) -> dict[str, str]:

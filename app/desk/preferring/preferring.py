@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.desk.desk import Desk, FileWork
+from app.desk.preferring.speaking import SpeakLanguage
 from app.desk.proofing.proof_work import make_tables
 from engine.keeping.preferences import Preferences, preferences_file
 from engine.keeping.writing_preferences import write_preferences
@@ -42,3 +43,5 @@ def keep_preferences(desk: Desk, told: Preferences) -> None:
         desk.work(KeepPreferences(told))
         if (told.profile, told.proof) != (kept.profile, kept.proof):
             make_tables(desk, told)
+        if told.language != kept.language:
+            desk.work(SpeakLanguage(told.language))

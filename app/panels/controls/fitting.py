@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
+
+from app.language import said
 
 _DOTS = "…"
+_SMALLEST = 0.8  # of the font, that a text on a button is drawn with
 
 
 def ended(text: str, width: float) -> str:
@@ -30,6 +34,33 @@ def shortened(text: str, width: float) -> str:
         if imgui.calc_text_size(shorter).x <= width:
             return shorter
     return _DOTS
+
+
+def fitting_button(label: str, width: float) -> bool:
+    """Draws a button that is so wide, 0 for as wide as its text; tells whether it was pressed.  A text that is a little
+    too wide, as in some languages, is drawn smaller; for one that is wider still the button is wider, too."""
+    wanted, pad = text_width(label), 2 * imgui.get_style().frame_padding.x
+    if not width or wanted + pad <= width:
+        return said.button(label, ImVec2(width, 0))
+    part, tall = max(_SMALLEST, (width - pad) / wanted), imgui.get_frame_height()
+    imgui.push_font(None, imgui.get_style().font_size_base * part)
+    pressed = said.button(label, ImVec2(max(width, wanted * part + pad), tall))
+    imgui.pop_font()
+    return pressed
+
+
+def shares(labels: Sequence[str], room: float) -> list[float]:
+    """Returns how wide buttons side by side are: all alike, but where a text needs more than that."""
+    pad = 2 * imgui.get_style().frame_padding.x
+    wanted, alike = [text_width(label) + pad for label in labels], room / len(labels)
+    if max(wanted) <= alike:
+        return [alike] * len(labels)
+    return [room * one / sum(wanted) for one in wanted]
+
+
+def text_width(label: str) -> float:
+    """Returns how wide a label is in the language that is spoken, pixels."""
+    return said.calc_text_size(label.partition("##")[0]).x
 
 
 def home_text(path: Path) -> str:

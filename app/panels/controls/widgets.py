@@ -12,6 +12,7 @@ from app import icons, theme, trace
 from app.language import said
 from app.language.words import meant, say
 from app.panels.controls.fields_in_sight import note_slider
+from app.panels.controls.fitting import ended, fitting_button, shares
 from app.panels.controls.folds import folding_header
 
 Col = imgui.Col_
@@ -80,7 +81,7 @@ def icon_button(
 def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
     """Draws a button with a text and a tooltip; tells whether it was pressed."""
     imgui.begin_disabled(not enabled)
-    pressed = said.button(label, ImVec2(width, 0))
+    pressed = fitting_button(label, width)
     imgui.end_disabled()
     named(label)
     tooltip(hint)
@@ -203,17 +204,16 @@ def slider(
     if not typing:
         pad = imgui.get_style().frame_padding
         text = _number(form, value)
-        said.add_text(
-            painter, ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed(theme.look.soft), label.split("##")[0]
-        )
         at = ImVec2(end.x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
+        name = ended(say(label.split("##")[0]), at.x - corner.x - 1.5 * pad.x)
+        painter.add_text(ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed(theme.look.soft), name)
         said.add_text(painter, at, theme.packed(theme.look.text), text)
     tooltip(hint)
     return changed, max(lo, min(hi, value)) if changed else value
 
 
 def _number(form: str, value: float) -> str:
-    return (form % value).replace("%%", "%")
+    return (say(form) % value).replace("%%", "%")
 
 
 def _hidden_frame(on: bool, typing: bool) -> None:
@@ -349,13 +349,14 @@ def lit_button(label: str, hint: str, on: bool, width: float = 0.0) -> bool:
 def segments(name: str, current: str, options: Sequence[tuple[str, str, str]], width: float = 0.0) -> str | None:
     """Buttons side by side of which one is lit: (value, text, hint); the value chosen now, or None."""
     gap = 2 * imgui.get_style().font_scale_dpi
-    width = ((width or imgui.get_content_region_avail().x) - gap * (len(options) - 1)) / len(options)
+    width = (width or imgui.get_content_region_avail().x) - gap * (len(options) - 1)
     picked = None
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(1, imgui.get_style().frame_padding.y))
+    widths = shares([text for _, text, _ in options], width)
     for i, (value, text, hint) in enumerate(options):
         if i:
             imgui.same_line(0, gap)
-        if lit_button(f"{text}##{name} {value}", hint, value == current, width):
+        if lit_button(f"{text}##{name} {value}", hint, value == current, widths[i]):
             picked = value
     imgui.pop_style_var()
     return picked

@@ -9,6 +9,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.desk.desk import Desk
 from app.language import said
+from app.language.words import say
 from app.panels.arranging.workspaces_dialog import WorkspacesDialog
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
@@ -187,7 +188,7 @@ class Unsaved:
         name, writing = desk.known.path.name if desk.known.path else "This painting", desk.known.writing
         grown = f", growing {writing.grown * 100:.0f} %" if writing.grown < 1.0 else ""
         told = f"is still being saved{grown}." if writing.saving else "has changes that are not saved."
-        said.text_unformatted(f"{name} {told}")
+        said.text_unformatted(f"{say(name)} {say(told)}")
         if desk.asked.why:
             said.text_unformatted(desk.asked.why)
         imgui.spacing()

@@ -10,6 +10,7 @@ from app.desk.exporting.export_areas import AREAS, export_bytes, export_place
 from app.desk.exporting.export_state import EXPORT_FORMATS, FINER, FRAME_AREA
 from app.desk.folders import size_text
 from app.language import said
+from app.language.words import say
 from app.panels.controls import widgets as w
 from engine.checks.picture_sides import PICTURE_SIDE
 
@@ -34,7 +35,7 @@ class ExportDialog:
         imgui.set_next_item_width(em * _WIDE)
         flags = imgui.SliderFlags_.always_clamp
         shown = "as fine as it is" if state.finer == 0 else f"{state.finer:+d} levels"
-        state.finer = imgui.slider_int("##Finer", state.finer, *FINER, shown, flags)[1]
+        state.finer = imgui.slider_int("##Finer", state.finer, *FINER, say(shown), flags)[1]
         low = imgui.get_item_rect_min()
         w.placed("Finer", low, ImVec2(low.x + em * _WIDE, imgui.get_item_rect_max().y))
         w.tooltip("Each level finer doubles the picture, with new detail; each coarser halves it")

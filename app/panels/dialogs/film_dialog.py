@@ -10,6 +10,7 @@ from app.desk.asked import FILM_SIZES, film_wish, fitted_frame
 from app.desk.desk import Desk
 from app.desk.places import going
 from app.language import said
+from app.language.words import say
 from app.panels.controls import widgets as w
 from engine.studio.filing.film_requests import FilmWish, PreviewFilm, StopFilm
 
@@ -124,7 +125,7 @@ class FilmDialog:
             film.seconds,
             0,
             _MOST_SECONDS,
-            text,
+            say(text),
             imgui.SliderFlags_.always_clamp | imgui.SliderFlags_.logarithmic,
         )
         w.named("seconds")

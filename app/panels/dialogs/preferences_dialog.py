@@ -13,8 +13,7 @@ from app.desk.desk import Desk
 from app.desk.preferring.preferring import keep_preferences, prefer
 from app.desk.proofing.proof_work import BY_NONE, BY_SYSTEM
 from app.language import said
-from app.language.wide_fonts import has_letters
-from app.language.words import LANGUAGES, known_languages
+from app.language.words import known_languages
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
 from app.theme.looks import LOOKS
@@ -168,11 +167,8 @@ def _language(desk: Desk) -> None:
     now = desk.preferred.now
     languages = (("", "That of the system"), *known_languages().items())
     picked = w.choice("language", now.language, languages, "Of menus, panels and hints", 14 * imgui.get_font_size())
-    if picked is None:
-        return
-    prefer(desk, language=picked)
-    if not has_letters(picked):
-        desk.say(f"No font for {LANGUAGES[picked]} is found: install Noto Sans CJK", bad=True)
+    if picked is not None:
+        prefer(desk, language=picked)
 
 
 def _profile(desk: Desk, name: str, chosen: str, usual: tuple[tuple[str, str], ...], hint: str) -> None:

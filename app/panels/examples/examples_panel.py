@@ -269,7 +269,7 @@ def _in_middle(text: str, corner: ImVec2, size: tuple[float, float]) -> None:
     """Draws a word where a picture is to come."""
     half = said.calc_text_size(text) / 2
     at = ImVec2(corner.x + size[0] / 2 - half.x, corner.y + size[1] / 2 - half.y)
-    imgui.get_window_draw_list().add_text(at, theme.packed(theme.look.quiet), text)
+    said.add_text(imgui.get_window_draw_list(), at, theme.packed(theme.look.quiet), text)
 
 
 def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float]) -> None:

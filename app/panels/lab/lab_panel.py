@@ -251,7 +251,7 @@ def _axes(desk: Desk, corner: ImVec2, side: float, over: bool) -> None:
 def _invite(corner: ImVec2, side: float, text: str) -> None:
     size = said.calc_text_size(text)
     at = ImVec2(corner.x + (side - size.x) / 2, corner.y + side * 0.62)
-    imgui.get_window_draw_list().add_text(at, theme.packed(theme.look.text, 0.8), text)
+    said.add_text(imgui.get_window_draw_list(), at, theme.packed(theme.look.text, 0.8), text)
 
 
 def _window(corner: ImVec2, size: tuple[float, float], width: int, scale: float) -> None:
