@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
+from engine.numeric import elementary
 from engine.texture.expression.codes import Code
-from engine.texture.expression.weaving import JUMP_SIDE, POINT_SIDE, Env, Rule, Value, Weaver
+from engine.texture.expression.spreads import Spread
+from engine.texture.expression.weaving import JUMP_SIDE, Env, Rule, Value, Weaver, aslant, side_for
 from engine.texture.expression.written import Term
 
+_WHOLE = math.sqrt(12.0)  # standard deviations within what rises evenly
 _Pair = tuple[int, int]  # a node, and how many samples along a pixel its mean takes
 Work = Callable[[Weaver, int, int], _Pair]
 
@@ -39,12 +43,16 @@ def _subtract(weaver: Weaver, a: int, b: int) -> _Pair:
 def _multiply(weaver: Weaver, a: int, b: int) -> _Pair:
     """The mean of a product is that of both where one is the same everywhere, or both change evenly."""
     fixed = weaver.graph.value(a) is not None or weaver.graph.value(b) is not None
-    return weaver.graph.mul(a, b), 1 if fixed or (weaver.even(a) and weaver.even(b)) else POINT_SIDE
+    error = 0.0 if fixed else weaver.spreads.of(a).within * weaver.spreads.of(b).within
+    node = weaver.graph.mul(a, b)
+    if a == b:
+        node = weaver.graph.plus(node, weaver.spreads.of(a).lost_squared)
+    return node, side_for(error)
 
 
 def _divide(weaver: Weaver, a: int, b: int) -> _Pair:
     fixed = weaver.graph.value(b) is not None
-    return weaver.graph.div(a, b), 1 if fixed else POINT_SIDE
+    return weaver.graph.div(a, b), 1 if fixed else side_for(4.0 * weaver.spreads.of(b).within)
 
 
 def _of_two(work: Work) -> Rule:
@@ -68,7 +76,12 @@ def _compared(weaver: Weaver, term: Term, env: Env) -> Value:
     if graph.value(told) is not None:
         code = Code.LESS if len(term.operation) == 1 else Code.LESS_EQUAL
         return Value((graph.node(code, left, right),))
-    return Value((weaver.covered(told),), max(a.side, b.side))
+    return Value((weaver.covered(told),), max(a.side, b.side, threshold_side(weaver, told)))
+
+
+def threshold_side(weaver: Weaver, node: int, steep: float = 1.0) -> int:
+    """Returns how many samples a threshold takes: more where something is lost."""
+    return side_for(0.5 * weaver.spreads.of(node).lost * steep)
 
 
 def _chosen(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -91,7 +104,7 @@ def mixed_by(weaver: Weaver, ends: tuple[Value, Value], part: Value, env: Env) -
     for one, other in zip(a.nodes, b.nodes, strict=True):
         away = graph.sub(other, one)
         if env.mean and graph.value(away) is None and graph.value(way) is None:
-            side = max(side, POINT_SIDE)
+            side = max(side, side_for(weaver.spreads.of(away).within * weaver.spreads.of(way).within))
         nodes.append(graph.blend(one, other, way))
     return Value(tuple(nodes), side)
 
@@ -110,16 +123,24 @@ def _bent(weaver: Weaver, a: int, b: int, sign: float) -> int:
     return graph.sub(a, weaver.ramped(away)) if sign < 0.0 else graph.add(b, weaver.ramped(away))
 
 
+def _sampled_bend(weaver: Weaver, term: Term, value: Value) -> Value:
+    """Returns what is bent, with the samples that what is lost of it takes."""
+    lost = max(weaver.spreads.of(node).lost for node in value.nodes)
+    return Value(value.nodes, max(value.side, side_for(0.2 * lost)))
+
+
 def _least(weaver: Weaver, term: Term, env: Env) -> Value:
     if not env.mean:
         return zipped(weaver, term, env, lambda w, a, b: (w.graph.least(a, b), 1))
-    return zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, -1.0), 1))
+    found = zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, -1.0), 1))
+    return _sampled_bend(weaver, term, found)
 
 
 def _most(weaver: Weaver, term: Term, env: Env) -> Value:
     if not env.mean:
         return zipped(weaver, term, env, lambda w, a, b: (w.graph.most(a, b), 1))
-    return zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, 1.0), 1))
+    found = zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, 1.0), 1))
+    return _sampled_bend(weaver, term, found)
 
 
 def _absolute(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -127,7 +148,7 @@ def _absolute(weaver: Weaver, term: Term, env: Env) -> Value:
     node = value.nodes[0]
     if not env.mean or graph.value(node) is not None:
         return Value((graph.node(Code.ABS, node),), value.side)
-    return Value((graph.sub(graph.times(weaver.ramped(node), 2.0), node),), value.side)
+    return _sampled_bend(weaver, term, Value((graph.sub(graph.times(weaver.ramped(node), 2.0), node),), value.side))
 
 
 def _clamped(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -151,16 +172,29 @@ def fractional(weaver: Weaver, node: int, mean: bool) -> tuple[int, int]:
     if graph.value(wide) == 0.0:
         return plain, 1
     if not mean:
+        weaver.spreads.told[plain] = wrapped(weaver, node)
         seen = graph.within(graph.plus(graph.times(wide, -2.0), 2.4))
         half = graph.constant(0.5)
-        return graph.add(half, graph.mul(graph.sub(plain, half), seen)), JUMP_SIDE
-    wide = graph.most(wide, graph.constant(1e-6))
-    ends = [graph.add(node, graph.times(wide, way)) for way in (-0.5, 0.5)]
-    wholes = [graph.node(Code.FLOOR, end) for end in ends]
-    rests = [graph.sub(end, whole) for end, whole in zip(ends, wholes, strict=True)]
-    squares = graph.sub(graph.mul(rests[1], rests[1]), graph.mul(rests[0], rests[0]))
-    summed = graph.add(graph.sub(wholes[1], wholes[0]), squares)
-    return graph.div(summed, graph.times(wide, 2.0)), 1
+        made = graph.add(half, graph.mul(graph.sub(plain, half), seen))
+        weaver.spreads.told[made] = weaver.spreads.of(plain)
+        return made, JUMP_SIDE
+
+    def sawtooth(middle: int, wide: int) -> int:
+        wide = graph.most(wide, graph.constant(1e-6))
+        ends = [graph.add(middle, graph.times(wide, way)) for way in (-0.5, 0.5)]
+        wholes = [graph.node(Code.FLOOR, end) for end in ends]
+        rests = [graph.sub(end, whole) for end, whole in zip(ends, wholes, strict=True)]
+        squares = graph.sub(graph.mul(rests[1], rests[1]), graph.mul(rests[0], rests[0]))
+        summed = graph.add(graph.sub(wholes[1], wholes[0]), squares)
+        return graph.div(summed, graph.times(wide, 2.0))
+
+    return aslant(weaver, node, sawtooth), 1
+
+
+def wrapped(weaver: Weaver, node: int) -> Spread:
+    """Returns the spread of what lies behind the point of something."""
+    wide = _WHOLE * weaver.spreads.of(node).within
+    return Spread(min(wide, 1.0) / _WHOLE, 1.0 / _WHOLE * min(max((wide - 0.5) / 0.7, 0.0), 1.0))
 
 
 def _fract(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -189,7 +223,7 @@ def _step(weaver: Weaver, term: Term, env: Env) -> Value:
     graph, away = weaver.graph, weaver.graph.sub(value.nodes[0], edge.nodes[0])
     if graph.value(away) is not None:
         return Value((graph.node(Code.LESS_EQUAL, edge.nodes[0], value.nodes[0]),))
-    return Value((weaver.covered(away),), max(edge.side, value.side))
+    return Value((weaver.covered(away),), max(edge.side, value.side, threshold_side(weaver, away)))
 
 
 def smooth(weaver: Weaver, t: int) -> int:
@@ -216,7 +250,7 @@ def _smoothstep(weaver: Weaver, term: Term, env: Env) -> Value:
     low, high, value = (weaver.number(part, env.point) for part in term.parts)
     graph = weaver.graph
     t = graph.div(graph.sub(value.nodes[0], low.nodes[0]), graph.sub(high.nodes[0], low.nodes[0]))
-    return Value((smooth(weaver, t),), max(low.side, high.side, value.side))
+    return Value((smooth(weaver, t),), max(low.side, high.side, value.side, threshold_side(weaver, t)))
 
 
 def _wave(code: Code) -> Rule:
@@ -225,17 +259,29 @@ def _wave(code: Code) -> Rule:
         value = weaver.number(term.parts[0], env.point)
         graph, node = weaver.graph, value.nodes[0]
         wave = graph.node(code, node)
-        half = graph.times(weaver.width(node), 0.5)
+        half = graph.times(weaver.plain_width(node), 0.5)
         told = graph.value(half)
         if told == 0.0:
             return Value((wave,), value.side)
         small = graph.most(half, graph.constant(1e-4))
         left = graph.div(graph.node(Code.SIN, small), small)
+        if told is not None:
+            left = graph.constant(_sincs(weaver, node))
         if told is None:
             left = graph.pick(graph.node(Code.LESS, half, graph.constant(3.141592653589793)), left, graph.constant(0.0))
-        return Value((graph.mul(wave, left),), max(value.side, 1 if weaver.even(node) else POINT_SIDE))
+        error = 0.0 if weaver.even(node) else weaver.spreads.of(node).within_squared
+        return Value((graph.mul(wave, left),), max(value.side, side_for(error)))
 
     return rule
+
+
+def _sincs(weaver: Weaver, node: int) -> float:
+    """Returns what is left of a sine that changes evenly across and down, and of whose place something is lost."""
+    out = 1.0
+    for slope in weaver.slopes.of(node):
+        half = 0.5 * abs(weaver.graph.value(slope) or 0.0) * weaver.setting.width
+        out *= elementary.sin(half) / half if half > 1e-4 else 1.0
+    return out * elementary.exp(-0.5 * weaver.spreads.of(node).lost_squared)
 
 
 def _plain(code: Code) -> Rule:
@@ -243,7 +289,8 @@ def _plain(code: Code) -> Rule:
         """A function without an integral of its own: by samples, where it is not the same everywhere."""
         values = [weaver.number(part, env.point) for part in term.parts]
         node = weaver.graph.node(code, *(value.nodes[0] for value in values))
-        side = 1 if weaver.graph.value(node) is not None or not env.mean else POINT_SIDE
+        error = 4.0 * sum(weaver.spreads.of(value.nodes[0]).within_squared for value in values)
+        side = 1 if weaver.graph.value(node) is not None or not env.mean else side_for(error)
         return Value((node,), max(side, *(value.side for value in values)))
 
     return rule
@@ -252,8 +299,9 @@ def _plain(code: Code) -> Rule:
 def _power(weaver: Weaver, term: Term, env: Env) -> Value:
     base, exponent = (weaver.number(part, env.point) for part in term.parts)
     graph, told = weaver.graph, weaver.graph.value(exponent.nodes[0])
-    side = max(base.side, exponent.side, POINT_SIDE if env.mean else 1)
     node = base.nodes[0]
+    error = weaver.spreads.of(node).within_squared + weaver.spreads.of(exponent.nodes[0]).within
+    side = max(base.side, exponent.side, side_for(error) if env.mean else 1)
     if told is None or told not in (0.0, 1.0, 2.0, 3.0, 4.0) or graph.value(node) is not None:
         return Value((graph.node(Code.POW, node, exponent.nodes[0]),), side)
     if told % 2.0:
@@ -261,6 +309,8 @@ def _power(weaver: Weaver, term: Term, env: Env) -> Value:
     made = graph.constant(1.0)
     for _ in range(int(told)):
         made = graph.mul(made, node)
+    if told == 2.0 and env.mean:
+        made = graph.plus(made, weaver.spreads.of(node).lost_squared)
     return Value((made,), side)
 
 

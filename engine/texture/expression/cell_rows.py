@@ -10,9 +10,9 @@ from engine.numeric.kernel import forced, inner_uncounted
 from engine.texture.expression.noise_rows import hash32
 
 DISTANCE, EDGE, RANDOM = 0, 1, 2  # to the nearest point; to the nearest edge of the cell; a number for each cell
-MEANS = (0.4, 0.145, 0.5)  # over the plane, for points that lie anywhere in their squares
+MEANS = (0.429, 0.166, 0.5)  # over the plane, for points that lie anywhere in their squares
 _FAR = 2.0**30
-_FINE, _COARSE = 0.5, 1.5  # units a pixel, between which cells fade to their mean
+_FINE, _COARSE = 1.0, 3.0  # units a pixel, between which cells fade to their mean
 _HALF = np.uint32(0xFFFF)
 
 

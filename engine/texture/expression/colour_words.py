@@ -8,7 +8,8 @@ from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.functions import functions
 from engine.texture.expression.arithmetic_words import Work, zipped
 from engine.texture.expression.codes import Code
-from engine.texture.expression.weaving import POINT_SIDE, Env, Rule, Value, Weaver
+from engine.texture.expression.spreads import steepest as spread_of_ramp
+from engine.texture.expression.weaving import POINT_SIDE, Env, Rule, Value, Weaver, side_for
 from engine.texture.expression.written import Term
 
 _KNOTS_MOST = 64
@@ -21,7 +22,8 @@ def _knots(weaver: Weaver, t: Value, places: list[float], columns: list[tuple[fl
     nodes = tuple(
         weaver.graph.node(Code.RAMP, node, weaver.width(node), numbers=(*places, *column)) for column in columns
     )
-    return Value(nodes, t.side)
+    steepest = max(spread_of_ramp((*places, *column)) for column in columns)
+    return Value(nodes, max(t.side, side_for(0.3 * weaver.spreads.of(node).lost * steepest)))
 
 
 def _ramp(weaver: Weaver, term: Term, env: Env) -> Value:

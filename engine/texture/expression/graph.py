@@ -126,7 +126,7 @@ class Graph:
         if right == 0.0:
             return self.constant(0.0)
         told = self.operations[a]
-        if told.code == Code.TIMES:
+        if told.code == Code.TIMES and told.numbers[0] != 0.0:
             a, right = told.parts[0], told.numbers[0] * right
         return a if right == 1.0 else self.node(Code.TIMES, a, numbers=(right,))
 

@@ -179,7 +179,7 @@ def _scattered(
             first = op[6] + 5 * n
             noise_row(u, v, widths, numbers[first : first + 5], keys[op[7] + n], op[9], room, out)
     elif op[0] == _WHITE:
-        white_row(u, v, widths, keys[op[7]], room, out)
+        white_row(u, v, widths, keys[op[7]], op[8], room, out)
     else:
         cell_row(u, v, widths, numbers[op[6]], keys[op[7]], op[8], op[9], out)
 

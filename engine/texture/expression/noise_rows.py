@@ -121,12 +121,13 @@ def _spline(s: float) -> float:
 @forced
 def _weight(low: float, high: float, middle: float, kind: int) -> float:
     """Returns what a cell adds to a box from low to high, times its width; `kind`: 0 for smooth noise, 1 for its slope,
-    2 for cells of their own."""
+    2 for cells of their own, 3 for their upper halves."""
     if kind == 0:
         return _spline_sum(high - middle) - _spline_sum(low - middle)
     if kind == 1:
         return _spline(high - middle) - _spline(low - middle)
-    return min(max(high - middle, -0.5), 0.5) - min(max(low - middle, -0.5), 0.5)
+    last = 0.5 if kind == 2 else 0.0
+    return min(max(high - middle, -0.5), last) - min(max(low - middle, -0.5), last)
 
 
 @inner_uncounted
@@ -140,7 +141,7 @@ def _weigh(
     once.
     """
     count, same = 1, True
-    reach = 0.0 if kind == 2 else 1.0
+    reach = 0.0 if kind >= 2 else 1.0
     scale, shift = lattice
     low, high, inverse = ends[0], ends[1], ends[2]
     for i in range(u.size):
@@ -235,12 +236,13 @@ def _four(key: np.uint32, x: Int, y: Int) -> tuple[float, float, float, float]:
 
 @inner_uncounted
 def white_row(
-    u: np.ndarray, v: np.ndarray, widths: tuple[np.ndarray, np.ndarray], key: np.uint32, room: np.ndarray,
-    out: np.ndarray,
+    u: np.ndarray, v: np.ndarray, widths: tuple[np.ndarray, np.ndarray], key: np.uint32, half: int,
+    room: np.ndarray, out: np.ndarray,
 ) -> None:  # fmt: skip
-    """Writes a random number of 0..1 for each cell, one unit wide; `room`: float64 (3, ROOM, n)."""
+    """Writes a random number of -1/2..1/2 for each cell, one unit wide; `half` 1: only in the upper half of each, and 0
+    elsewhere; `room`: float64 (3, ROOM, n)."""
     columns = _weigh(u, widths[0], (1.0, 0.0), 2, room[0], room[2])
-    rows = _weigh(v, widths[1], (1.0, 0.0), 2, room[1], room[2])
+    rows = _weigh(v, widths[1], (1.0, 0.0), 2 + half, room[1], room[2])
     for i in range(out.size):
         out[i] = 0.0
     for j in range(rows):
@@ -254,4 +256,4 @@ def white_row(
                 upper, lower = 0.5 * (sy[i] + dy[i]), 0.5 * (sy[i] - dy[i])
                 out[i] += (a * even + b * odd) * upper + (c * even + d * odd) * lower
     for i in range(out.size):
-        out[i] = 0.5 + 0.5 * _faded(max(widths[0][i], widths[1][i]), CELLS_SEEN) * out[i]
+        out[i] *= 0.5 * _faded(max(widths[0][i], widths[1][i]), CELLS_SEEN)

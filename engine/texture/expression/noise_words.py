@@ -2,22 +2,38 @@
 
 from __future__ import annotations
 
+import math
+
+from engine.numeric import elementary
 from engine.numeric.hashing import MASK32, fold_key
 from engine.texture.expression import cell_rows
 from engine.texture.expression.codes import Code
 from engine.texture.expression.noise_rows import CELLS_SEEN
-from engine.texture.expression.weaving import POINT_SIDE, Env, Rule, Value, Weaver
+from engine.texture.expression.spreads import Spread, spread_within, summed_up
+from engine.texture.expression.weaving import Env, Rule, Value, Weaver, side_for
 from engine.texture.expression.written import Term
 
 _DOMAIN = 0x78707273  # tells these hashes from those of other textures
+_EVEN = 1.0 / math.sqrt(12.0)  # the standard deviation of what is evenly within 0..1
 _CELLS = 2.0  # of noise, in a unit
 _SPREAD = 0.463  # its standard deviation at a gain of 1
 _FAINT = 0.35 / 255.0  # of what is left of an octave
 LOUD = 0.36  # of noise about 1/2: its standard deviation is 0.17
 OCTAVES_MOST = 32
 _OCTAVES, _GAIN, _FINER = 8, 0.5, 2.0
-_RIDGE, _TURBULENCE = 0.46, 0.372  # means of 1 - |n| squared, and of |n|, n being noise of standard deviation 0.46
-_SEEN, _UNSEEN = 1.0, 3.0  # cells across a sample, between which a fold fades to its mean
+_STEEP = 0.8  # of ridges
+_TURBULENCE = 0.372  # the mean of |n|, n being noise of standard deviation 0.463
+_RIDGE = 1.0 - 2.0 * _STEEP * _TURBULENCE + _STEEP * _STEEP * 0.2144  # of (1 - _STEEP |n|)^2
+_NOISE_FADES = (1.45, 2.6, (0.25, 1.5))  # cells, of `spreads.spread_within`
+_CELLS_FADE: tuple[
+    tuple[float, float, float, tuple[float, float]], ...
+] = (  # deviation, and of `spreads.spread_within`, of distances, edges, random numbers
+    (0.19, 0.65, 2.2, (0.1, 1.0)),
+    (0.118, 0.4, 2.2, (0.1, 0.7)),
+    (0.283, 0.85, 1.8, (0.0, 0.01)),
+)
+_CELLS_SIDES = (0.1, 0.3, 1.0)  # of what they vary within a sample: errors that take more samples
+_SEEN, _UNSEEN = 2.0, 8.0  # cells across a sample, between which a fold fades to its mean
 
 
 def _place(weaver: Weaver, term: Term, env: Env, count: int = 2) -> tuple[list[int], int]:
@@ -49,7 +65,7 @@ def _octave(weaver: Weaver, seed: int, number: int, finer: float, gain: float) -
     """
     key = _key(weaver, Code.NOISE, seed, number)
     across, down = ((key >> bits & 0xFFFF) / 1024.0 for bits in (32, 48))
-    widest = (abs(gain) * _SPREAD / _FAINT) ** (2.0 / 3.0)
+    widest = elementary.power(abs(gain) * _SPREAD / _FAINT, 2.0 / 3.0)
     return (_CELLS * finer, across, down, gain, min(max(widest, 2.0), CELLS_SEEN)), key & MASK32
 
 
@@ -67,15 +83,36 @@ def _noises(weaver: Weaver, place: list[int], seed: int, octaves: list[tuple[flo
     """Returns a sum of octaves of noise about 0, each (times finer, gain)."""
     numbers: list[float] = []
     keys: list[int] = []
-    widths = _widths(weaver, place)
+    widths, spreads = _widths(weaver, place), []
     for n, (finer, gain) in enumerate(octaves):
         lattice, key = _octave(weaver, seed, n, finer, gain)
+        wide = _told_width(weaver, place, widths) * lattice[0]
+        spreads.append(spread_within(abs(gain) * _SPREAD, wide, *_NOISE_FADES))
         if not _unseen(weaver, widths, lattice[0], lattice[4]):
             numbers += lattice
             keys.append(key)
     if not keys:
-        return weaver.graph.constant(0.0)
-    return weaver.graph.node(Code.NOISE, *place, *widths, numbers=tuple(numbers), key=tuple(keys))
+        return _level(weaver, summed_up(spreads))
+    made = weaver.graph.node(Code.NOISE, *place, *widths, numbers=tuple(numbers), key=tuple(keys))
+    weaver.spreads.told[made] = summed_up(spreads)
+    return made
+
+
+def _told_width(weaver: Weaver, place: list[int], widths: tuple[int, int]) -> float:
+    """Returns the width of a sample, as far as it is the same everywhere; where it is not, about."""
+    told = [weaver.graph.value(width) for width in widths]
+    if None in told:
+        return max(weaver.spreads.of(one).within for one in place) / _EVEN
+    wide: float = max(one for one in told if one is not None)
+    return wide
+
+
+def _level(weaver: Weaver, spread: Spread) -> int:
+    """Returns 0 that is what is left of something: a node of its own, which has a spread."""
+    told = int(spread.lost * 1e6)
+    made = weaver.graph.node(Code.TIMES, weaver.graph.x, numbers=(0.0,), key=(told,))
+    weaver.spreads.told[made] = spread
+    return made
 
 
 def _noise(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -101,7 +138,7 @@ def _octaves(weaver: Weaver, term: Term, env: Env) -> tuple[list[tuple[float, fl
 def _fbm(weaver: Weaver, term: Term, env: Env) -> Value:
     place, side = _place(weaver, term, env)
     octaves, seed = _octaves(weaver, term, env)
-    power = sum(gain * gain for _, gain in octaves) ** 0.5
+    power = math.sqrt(sum(gain * gain for _, gain in octaves))
     node = _noises(weaver, place, seed, [(finer, LOUD * gain / power) for finer, gain in octaves])
     return Value((weaver.graph.plus(node, 0.5),), side)
 
@@ -112,47 +149,70 @@ def _folded(ridged: bool) -> Rule:
     def rule(weaver: Weaver, term: Term, env: Env) -> Value:
         place, side = _place(weaver, term, env)
         octaves, seed = _octaves(weaver, term, env)
-        graph, widths = weaver.graph, _widths(weaver, place)
-        wide, total, all_ = graph.most(*widths), graph.constant(0.0), sum(gain for _, gain in octaves)
-        mean = graph.constant(_RIDGE if ridged else _TURBULENCE)
+        graph, wide = weaver.graph, _told_width(weaver, place, _widths(weaver, place))
+        total, sides, all_ = graph.constant(0.0), [side], sum(gain for _, gain in octaves)
         for n, (finer, gain) in enumerate(octaves):
-            lattice, key = _octave(weaver, seed, n, finer, 1.0)
-            seen = graph.within(graph.plus(graph.times(wide, -lattice[0] / (_UNSEEN - _SEEN)), _UNSEEN / 2.0))
-            made = mean
-            if graph.value(seen) != 0.0:
-                own = graph.node(Code.NOISE, *place, *widths, numbers=lattice, key=(key,))
-                fold = graph.node(Code.ABS, own)
+            mean = graph.constant(_RIDGE if ridged else _TURBULENCE)
+            seen = min(max((_UNSEEN - wide * finer * _CELLS) / (_UNSEEN - _SEEN), 0.0), 1.0)
+            if seen > 0.0:
+                own = _noises(weaver, place, seed + 7 * n, [(finer, 1.0)])
+                fold = graph.sub(graph.times(weaver.ramped(own), 2.0), own)
+                spread = weaver.spreads.of(own)
                 if ridged:
-                    fold = graph.most(graph.plus(graph.times(fold, -1.0), 1.0), graph.constant(0.0))
-                    fold = graph.mul(fold, fold)
-                made = graph.blend(mean, fold, seen)
-            total = graph.add(total, graph.times(made, gain / all_))
-        return Value((total,), max(side, POINT_SIDE))
+                    square = graph.plus(graph.mul(own, own), spread.lost_squared)
+                    fold = graph.plus(
+                        graph.add(graph.times(fold, -2.0 * _STEEP), graph.times(square, _STEEP * _STEEP)), 1.0
+                    )
+                mean = graph.blend(mean, fold, graph.constant(seen))
+                sides.append(side_for(0.3 * spread.within * seen * gain / all_))
+            total = graph.add(total, graph.times(mean, gain / all_))
+        return Value((total,), max(sides))
 
     return rule
 
 
 def _white(weaver: Weaver, term: Term, env: Env) -> Value:
     place, side = _place(weaver, term, env)
-    return Value((white(weaver, place, _seed(weaver, term, env, 2)),), side)
+    made = white(weaver, place, _seed(weaver, term, env, 2), env)
+    return Value((made,), side if env.mean else max(side, side_for(weaver.spreads.of(made).within)))
 
 
-def white(weaver: Weaver, place: list[int], seed: int) -> int:
+def white(weaver: Weaver, place: list[int], seed: int, env: Env) -> int:
     """Returns a random number for each unit square."""
+    return half_white(weaver, place, (seed, 0), 0.5, env)
+
+
+def half_white(weaver: Weaver, place: list[int], which: tuple[int, int], about: float, env: Env) -> int:
+    """Returns `white` about another number; `which`: its seed, and 1 where it is only in the upper half of each square,
+    elsewhere there is that number.
+
+    At a point it has no values between those of two cells, but where a sample spans as much as a cell.
+    """
     widths = _widths(weaver, place)
+    wide = _told_width(weaver, place, widths)
+    spread = spread_within(_EVEN, wide, 0.6, 2.0, (0.0, 0.01))
     if _unseen(weaver, widths, 1.0):
-        return weaver.graph.constant(0.5)
-    key = _key(weaver, Code.WHITE, seed) & MASK32
-    return weaver.graph.node(Code.WHITE, *place, *widths, key=(key,))
+        return weaver.graph.plus(_level(weaver, spread), about)
+    if not env.mean:
+        blurred = min(max(wide - 0.5, 0.0), 1.0)
+        widths = weaver.graph.times(widths[0], blurred), weaver.graph.times(widths[1], blurred)
+        spread = Spread(spread.within, spread.lost * blurred)
+    key = _key(weaver, Code.WHITE, which[0]) & MASK32
+    made = weaver.graph.node(Code.WHITE, *place, *widths, key=(key,), kind=which[1])
+    weaver.spreads.told[made] = Spread(spread.within, spread.lost * (1.0 if which[1] == 0 else 0.7))
+    return weaver.graph.plus(made, about)
 
 
 def _cells(kind: int) -> Rule:
     def rule(weaver: Weaver, term: Term, env: Env) -> Value:
         place, side = _place(weaver, term, env)
         jitter = _optional(weaver, term, env, 2, 1.0, (0.0, 1.0))
-        key = _key(weaver, Code.CELLS, _seed(weaver, term, env, 3)) & MASK32
-        node = weaver.graph.node(Code.CELLS, *place, *_widths(weaver, place), numbers=(jitter,), key=(key,), kind=kind)
-        return Value((node,), max(side, POINT_SIDE))
+        key, widths = _key(weaver, Code.CELLS, _seed(weaver, term, env, 3)) & MASK32, _widths(weaver, place)
+        node = weaver.graph.node(Code.CELLS, *place, *widths, numbers=(jitter,), key=(key,), kind=kind)
+        deviation, half, falls, seen = _CELLS_FADE[kind]
+        spread = spread_within(deviation, _told_width(weaver, place, widths), half, falls, seen)
+        weaver.spreads.told[node] = spread
+        return Value((node,), max(side, side_for(spread.within * _CELLS_SIDES[kind])))
 
     return rule
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 from engine.texture.expression.codes import Code
-from engine.texture.expression.noise_words import white
-from engine.texture.expression.weaving import Env, Rule, Value, Weaver
+from engine.texture.expression.noise_words import half_white, white
+from engine.texture.expression.weaving import JUMP_SIDE, POINT_SIDE, Env, Rule, Value, Weaver, aslant, side_for
 from engine.texture.expression.written import Term
 
 _GAP, _SHIFT, _RADIUS = 0.1, 0.5, 0.3
 _HEX = math.sqrt(3.0)
+_FINE, _COARSE = 0.03, 1.6  # units a pixel, between which patterns that go by their slopes take more samples
 
 
 def _numbers(weaver: Weaver, term: Term, env: Env, usual: tuple[float, ...]) -> tuple[list[int], int]:
@@ -25,12 +26,15 @@ def _numbers(weaver: Weaver, term: Term, env: Env, usual: tuple[float, ...]) -> 
 def pulse(weaver: Weaver, t: int, part: int) -> int:
     """Returns the mean of what is 1 while fract(t) is below `part`, else 0."""
     graph = weaver.graph
-    wide = graph.most(weaver.width(t), graph.constant(1e-9))
-    ends = [graph.add(t, graph.times(wide, way)) for way in (-0.5, 0.5)]
-    wholes = [graph.node(Code.FLOOR, end) for end in ends]
-    rests = [graph.least(graph.sub(end, whole), part) for end, whole in zip(ends, wholes, strict=True)]
-    summed = graph.add(graph.mul(graph.sub(wholes[1], wholes[0]), part), graph.sub(rests[1], rests[0]))
-    return graph.div(summed, wide)
+
+    def mean(middle: int, wide: int) -> int:
+        ends = [graph.add(middle, graph.times(wide, way)) for way in (-0.5, 0.5)]
+        wholes = [graph.node(Code.FLOOR, end) for end in ends]
+        rests = [graph.least(graph.sub(end, whole), part) for end, whole in zip(ends, wholes, strict=True)]
+        summed = graph.add(graph.mul(graph.sub(wholes[1], wholes[0]), part), graph.sub(rests[1], rests[0]))
+        return graph.div(summed, wide)
+
+    return aslant(weaver, t, mean)
 
 
 def _bounded(weaver: Weaver, node: int) -> int:
@@ -52,6 +56,8 @@ def _squares(weaver: Weaver, term: Term, env: Env) -> Value:
     (x, y), side = _numbers(weaver, term, env, ())
     graph, half = weaver.graph, weaver.graph.constant(0.5)
     waves = [graph.plus(graph.times(pulse(weaver, graph.times(t, 0.5), half), 2.0), -1.0) for t in (x, y)]
+    aslant = any(0.0 not in [graph.value(one) for one in weaver.slopes.of(t)] for t in (x, y))
+    side = max(side, _side(weaver, (x, y)) if aslant else 1)
     return Value((graph.plus(graph.times(graph.mul(*waves), 0.5), 0.5),), side)
 
 
@@ -69,22 +75,25 @@ def _tiles(weaver: Weaver, term: Term, env: Env) -> Value:
 
 
 def _bricks(weaver: Weaver, term: Term, env: Env) -> Value:
-    """Where a sample meets several courses, the upright joints are their mean."""
+    """Every other course is shifted: what the pixel holds of these and of those, each times its upright joints."""
     (x, y, gap, shift), side = _numbers(weaver, term, env, (_GAP, _SHIFT))
     graph, gap = weaver.graph, _bounded(weaver, gap)
-    course, _ = _rest(weaver, y)
-    along = _bar(weaver, graph.add(x, graph.mul(course, shift)), gap)
-    other = _bar(weaver, graph.add(x, graph.mul(graph.plus(course, 1.0), shift)), gap)
-    both = graph.times(graph.add(along, other), 0.5)
-    many = graph.within(graph.plus(graph.times(weaver.width(y), 2.0), -0.5))
-    return Value((graph.mul(graph.blend(along, both, many), _bar(weaver, y, gap)),), side)
+    half = graph.times(graph.plus(graph.times(gap, -1.0), 1.0), 0.5)
+    total = graph.constant(0.0)
+    for course in (0.0, 0.5):
+        rows = pulse(weaver, graph.plus(graph.times(graph.sub(y, graph.times(gap, 0.5)), 0.5), -course), half)
+        along = _bar(weaver, graph.add(x, shift) if course else x, gap)
+        total = graph.add(total, graph.mul(rows, along))
+    return Value((total,), side)
 
 
 def _bricks_random(weaver: Weaver, term: Term, env: Env) -> Value:
     (x, y, shift), side = _numbers(weaver, term, env, (_SHIFT,))
-    course, _ = _rest(weaver, y)
-    place = [weaver.graph.add(x, weaver.graph.mul(course, shift)), y]
-    return Value((white(weaver, place, 0),), side)
+    graph, half = weaver.graph, weaver.graph.times(y, 0.5)
+    even = half_white(weaver, [x, half], (1, 1), 0.25, env)
+    odd = half_white(weaver, [graph.add(x, shift), graph.plus(half, -0.5)], (2, 1), 0.25, env)
+    made = graph.add(even, odd)
+    return Value((made,), side if env.mean else max(side, side_for(weaver.spreads.of(made).within)))
 
 
 def _dots(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -94,14 +103,23 @@ def _dots(weaver: Weaver, term: Term, env: Env) -> Value:
     far = graph.node(Code.SQRT, graph.add(graph.mul(near[0], near[0]), graph.mul(near[1], near[1])))
     dot = weaver.covered(graph.sub(radius, far))
     area = graph.within(graph.times(graph.mul(radius, radius), math.pi))
-    return Value((_unless_fine(weaver, dot, area, (x, y)),), side)
+    return Value((_unless_fine(weaver, dot, area, (x, y)),), max(side, _side(weaver, (x, y))))
 
 
 def _unless_fine(weaver: Weaver, node: int, mean: int, place: tuple[int, int]) -> int:
     """Returns something, or its mean where a sample spans a whole repeat of it."""
     graph = weaver.graph
     wide = graph.most(*(weaver.width(t) for t in place))
-    return graph.blend(node, mean, graph.within(graph.plus(graph.times(wide, 1.6), -0.9)))
+    return graph.blend(node, mean, graph.within(graph.plus(graph.times(wide, 2.5), -1.5)))
+
+
+def _side(weaver: Weaver, place: tuple[int, int], jumps: bool = False) -> int:
+    """Returns how many samples a pattern takes that goes by its slopes: more where the pixel is no small part of it."""
+    told = [weaver.graph.value(weaver.width(t)) for t in place]
+    wide = max(one for one in told if one is not None) if None not in told else 0.1
+    if wide > _COARSE:
+        return 1
+    return JUMP_SIDE if jumps or wide > 0.1 else (POINT_SIDE if wide > _FINE else 1)
 
 
 def _hexagon(weaver: Weaver, x: int, y: int) -> tuple[int, int, int]:
@@ -128,7 +146,7 @@ def _hexagons(weaver: Weaver, term: Term, env: Env) -> Value:
     edge, _, _ = _hexagon(weaver, x, y)
     there = weaver.covered(graph.sub(edge, graph.times(gap, 0.5)))
     rest = graph.plus(graph.times(gap, -1.0), 1.0)
-    return Value((_unless_fine(weaver, there, graph.mul(rest, rest), (x, y)),), side)
+    return Value((_unless_fine(weaver, there, graph.mul(rest, rest), (x, y)),), max(side, _side(weaver, (x, y))))
 
 
 def _hexagons_random(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -136,8 +154,8 @@ def _hexagons_random(weaver: Weaver, term: Term, env: Env) -> Value:
     _, across, row = _hexagon(weaver, x, y)
     graph = weaver.graph
     place = [graph.plus(graph.times(one, 2.0), 0.5) for one in (across, row)]
-    made = white(weaver, place, 0)
-    return Value((_unless_fine(weaver, made, graph.constant(0.5), (x, y)),), max(side, 2))
+    made = white(weaver, place, 3, env)
+    return Value((_unless_fine(weaver, made, graph.constant(0.5), (x, y)),), max(side, _side(weaver, (x, y), True)))
 
 
 PATTERN_WORDS: dict[str, tuple[int, int, Rule, str]] = {

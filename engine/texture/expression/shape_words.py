@@ -6,8 +6,9 @@ import math
 from dataclasses import replace
 
 from engine.numeric import elementary
+from engine.texture.expression.arithmetic_words import wrapped
 from engine.texture.expression.codes import Code
-from engine.texture.expression.weaving import POINT_SIDE, Env, Rule, Value, Weaver
+from engine.texture.expression.weaving import JUMP_SIDE, POINT_SIDE, Env, Rule, Value, Weaver
 from engine.texture.expression.written import Term
 
 
@@ -85,14 +86,19 @@ def _star(weaver: Weaver, term: Term, env: Env) -> Value:
 
 def _fill(weaver: Weaver, term: Term, env: Env) -> Value:
     (far,), side = _nodes(weaver, term, env)
-    return Value((weaver.covered(weaver.graph.times(far, -1.0)),), side)
+    return Value((weaver.covered(weaver.graph.times(far, -1.0)),), max(side, _corners(weaver, far)))
+
+
+def _corners(weaver: Weaver, far: int) -> int:
+    """Returns the samples that a shape takes: its corners and bends have no slope of their own."""
+    return 1 if weaver.even(far) else POINT_SIDE
 
 
 def _outline(weaver: Weaver, term: Term, env: Env) -> Value:
     (far, thick), side = _nodes(weaver, term, env)
     graph, half = weaver.graph, weaver.graph.times(thick, 0.5)
     inner, outer = weaver.covered(graph.sub(far, half)), weaver.covered(graph.add(far, half))
-    return Value((graph.sub(outer, inner),), side)
+    return Value((graph.sub(outer, inner),), max(side, _corners(weaver, far)))
 
 
 def _glow(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -173,8 +179,11 @@ def _repeat(weaver: Weaver, term: Term, env: Env) -> Value:
         across = graph.add(across, graph.mul(row, counts[2]))
     column = graph.node(Code.FLOOR, across)
     places = [graph.plus(graph.sub(*pair), -0.5) for pair in ((across, column), (down, row))]
+    for node, whole in zip(places, (across, down), strict=True):
+        weaver.spreads.told[node] = wrapped(weaver, whole)
+    wide = max(weaver.spreads.of(node).within for node in places)
     found = weaver.value(term.parts[0], replace(env, x=places[0], y=places[1], cell=(column, row)))
-    return replace(found, side=max(found.side, side, POINT_SIDE))
+    return replace(found, side=max(found.side, side, POINT_SIDE if wide < 0.03 else JUMP_SIDE))
 
 
 SHAPE_WORDS: dict[str, tuple[int, int, Rule, str]] = {

@@ -18,11 +18,21 @@ from engine.numeric.formula import CONSTANTS
 from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph, TooLarge
 from engine.texture.expression.slopes import Slopes
+from engine.texture.expression.spreads import Spreads
 from engine.texture.expression.written import PICK, SLIDER, Term, WrittenError, WrittenText
 
 NESTED_MOST = 160  # parts within one another, lines that others refer to counted in
 POINT_SIDE, JUMP_SIDE = 2, 4  # samples along a pixel where a mean is not exact, and where it jumps
 _NARROW = 1e-9
+_GAUSS = 0.28867513459481287  # of an interval: two points by which cubic functions have their mean
+_NOISY = 10.3  # a box so wide, squared, is folded as noise of variance 1 is
+_BELL = 0.84  # of the widths of a box: a smooth step so steep is nearly that of noise of its deviation
+_FEW, _MANY = 0.004, 0.016  # errors of a mean, up to which one sample, and four, are enough
+
+
+def side_for(error: float) -> int:
+    """Returns how many samples along a pixel a mean takes that is wrong by so much."""
+    return 1 if error < _FEW else (POINT_SIDE if error < _MANY else JUMP_SIDE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +85,7 @@ class Weaver:
     def __init__(self, written: WrittenText, setting: Setting, rules: Mapping[str, Rule]) -> None:
         self.written, self.setting, self._rules = written, setting, rules
         self.graph = Graph()
-        self.slopes = Slopes(self.graph)
+        self.slopes, self.spreads = Slopes(self.graph), Spreads(self.graph, setting.width)
         self._lines = {line.name: n for n, line in enumerate(written.lines)}
         self._known: dict[tuple[int, Env], Value] = {}
         self._deep = 0
@@ -142,7 +152,15 @@ class Weaver:
         return self._lines.get(name)
 
     def width(self, node: int) -> int:
-        """Returns how far something changes from one side of a sample to the other."""
+        """Returns how far something changes from one side of a sample to the other, what is lost counted in."""
+        lost = self.spreads.of(node).lost
+        if lost > 0.0:
+            plain, wide = self.plain_width(node), self.graph.constant(_NOISY * lost * lost)
+            return self.graph.node(Code.SQRT, self.graph.add(self.graph.mul(plain, plain), wide))
+        return self.plain_width(node)
+
+    def plain_width(self, node: int) -> int:
+        """Returns how far something changes from one side of a sample to the other, as its slope tells."""
         across, down = (self.graph.value(one) for one in self.slopes.of(node))
         scale = self.setting.width
         if across is not None and down is not None:
@@ -155,9 +173,12 @@ class Weaver:
 
     def covered(self, node: int) -> int:
         """Returns how much of a sample lies where something is above 0, as far as its slope tells."""
-        graph = self.graph
+        graph, lost = self.graph, self.spreads.of(node).lost
         wide = graph.most(self.width(node), graph.constant(_NARROW))
-        return graph.within(graph.plus(graph.div(node, wide), 0.5))
+        if lost == 0.0:
+            return graph.within(graph.plus(graph.div(node, wide), 0.5))
+        part = graph.within(graph.plus(graph.times(graph.div(node, wide), _BELL), 0.5))
+        return graph.mul(graph.mul(part, part), graph.plus(graph.times(part, -2.0), 3.0))
 
     def ramped(self, node: int) -> int:
         """Returns the mean of something where it is above 0, and of 0 elsewhere."""
@@ -172,6 +193,19 @@ class Weaver:
         if isinstance(given, str):
             return Value(tuple(self.graph.constant(part) for part in premultiplied(given)))
         return Value((self.graph.constant(given),))
+
+
+def aslant(weaver: Weaver, node: int, mean: Callable[[int, int], int]) -> int:
+    """Returns mean(node, width), or where something rises both across and down, evenly, the mean along the lesser
+    way of that along the greater one, by two points (Gauss)."""
+    told = [weaver.graph.value(one) for one in weaver.slopes.of(node)]
+    narrow = weaver.graph.constant(_NARROW)
+    if None in told or 0.0 in told:
+        return mean(node, weaver.graph.most(weaver.width(node), narrow))
+    less, more = sorted(abs(one) * weaver.setting.width for one in told if one is not None)
+    points = [weaver.graph.plus(node, way * less) for way in (-_GAUSS, _GAUSS)]
+    halves = [mean(point, weaver.graph.most(weaver.graph.constant(more), narrow)) for point in points]
+    return weaver.graph.times(weaver.graph.add(*halves), 0.5)
 
 
 def premultiplied(colour: str) -> tuple[float, float, float, float]:

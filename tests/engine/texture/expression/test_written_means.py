@@ -1,0 +1,100 @@
+"""What a pixel of a written texture shows against its supersampled mean, at ten levels from far to near; and each level
+against the next finer one, reduced: the shimmer test.  Errors are rms, in 1/255."""
+
+import numpy as np
+import pytest
+
+from engine.numeric.address import Rect
+from engine.texture.expression.examined import shimmer
+from engine.texture.expression.told import expression
+
+LEVELS = range(-5, 5)
+SIDE = 16  # pixels along a square that is looked at
+EXACT = {  # what is linear, or has a mean in closed form: error at most
+    "noise(x*4, y*4)": 0.3,
+    "white(x*8, y*8)": 0.01,
+    "fbm(x*2, y*2)": 1.0,
+    "0.3*noise(x*9, y*5, 3) + 0.2*white(x*3, y*3) - 0.1*x": 0.3,
+    "stripes(x*8, 0.3)": 0.01,
+    "stripes(x*7 + y*3)": 1.0,
+    "squares(x*8, y*8)": 0.01,
+    "tiles(x*8, y*8)": 0.01,
+    "bricks(x*4, y*8)": 0.01,
+    "bricks_random(x*4, y*8)": 0.01,
+    "fract(x*7)": 0.01,
+    "mod(x, 0.2)*4": 0.01,
+    "0.5 + 0.5*sin(40*x + 20*y)": 0.01,
+    "luma(ramp(x, 0, #000000, 0.5, #ff8040, 1, #ffffff))": 0.01,
+    "x < 0.7": 0.01,
+    "smoothstep(0.1, 0.8, x)": 0.1,
+    "clamp(x*2 + y, 0.1, 0.8)": 0.5,
+}
+CLOSE = {  # what goes by slopes and samples: error from level -3 on, where a period is 8 pixels wide
+    "rotate(noise(x*4, y*4), 30)": 0.5,
+    "rotate(squares(x*4, y*4), 30)": 1.0,
+    "warp(fbm(x*2, y*2), 0.1*noise(x*2, y*2), 0)": 3.0,
+    "ridged(x*2, y*2)": 3.0,
+    "turbulence(x*2, y*2)": 3.0,
+    "cells(x*3, y*3)": 3.0,
+    "cells_edge(x*3, y*3)": 3.0,
+    "cells_random(x*3, y*3)": 6.0,
+    "dots(x*4, y*4)": 3.0,
+    "hexagons(x*4, y*4)": 3.0,
+    "hexagons_random(x*4, y*4)": 3.0,
+    "fill(circle(x - 1, y - 1, 0.8))": 3.0,
+    "fill(join(box(x - 1, y - 1, 1.5, 0.6, 0.1), circle(x - 1, y - 0.5, 0.3), 0.2))": 3.0,
+    "fill(cut(polygon(x - 1, y - 1, 6, 0.9), star(x - 1, y - 1, 5, 0.7, 0.3)))": 5.0,
+    "outline(segment(x, y, 0.3, 0.3, 1.5, 1.7), 0.2)": 3.0,
+    "glow(distance(x, y) - 1, 0.5)": 1.0,
+    "noise(x*4, y*4) > 0.6": 3.5,
+    "smoothstep(0.4, 0.6, noise(x*4, y*4))": 3.0,
+    "luma(ramp(fbm(x*2, y*2), 0.3, #000000, 0.5, #ffffff, 0.7, #400000))": 3.0,
+    "curve(noise(x*4, y*4), 0, 0, 0.4, 1, 0.6, 0, 1, 1)": 3.0,
+    "repeat(fill(circle(x, y, 0.2 + 0.2*random(1))), 4, 4)": 3.0,
+    "0.5 + 0.5*sin(40*x + 6*noise(x*3, y*3))": 3.0,
+    "min(noise(x*4, y*4), 0.5) + max(noise(x*4, y*4), 0.4) + abs(noise(x*4, y*4) - 0.5)": 3.0,
+    "noise(x*4, y*4) * noise(x*4, y*4, 1) / (1 + white(x, y))": 3.0,
+    "pow(noise(x*4, y*4), 1.7) + sqrt(noise(x*4, y*4))*exp(-noise(x*2, y*2))": 3.0,
+    "relief(noise(x*4, y*4), 315, 0.1)": 3.0,
+    "x*0.1 if noise(x*4, y*4) < 0.4 else y*0.1": 3.0,
+    "overlay(noise(x*4, y*4), noise(x*2, y*2))": 3.0,
+    "smoothstep(0.9, 1, white(x*4, y*4))": 5.0,
+}
+
+
+def errors(text):
+    """The error of each level, by what it is 16 or 32 times as finely."""
+    made = expression({"text": text, "period": 64}, -20)
+    for level in LEVELS:
+        finer = 5 if level < 0 else 4
+        rect = Rect.at(5, 7, SIDE, SIDE)
+        fine = made.means(level + finer, rect.zoomed(finer)).astype(np.float64)[0] / 2
+        mean = fine.reshape(SIDE, 1 << finer, SIDE, 1 << finer).mean((1, 3))
+        apart = made.means(level, rect)[0] / 2 - mean
+        yield level, float(np.square(apart).mean()) ** 0.5 * 255.0
+
+
+@pytest.mark.parametrize("text", EXACT)
+def test_what_has_an_exact_mean_shows_it_at_every_level(text):
+    found = dict(errors(text))
+    assert max(found.values()) <= EXACT[text], found
+    made = expression({"text": text}, -20)
+    for level in LEVELS:
+        assert shimmer(made, level, Rect.at(-9, 4, 32, 32)).rms * 255.0 <= max(EXACT[text], 0.02), level
+
+
+@pytest.mark.parametrize("text", CLOSE)
+def test_what_has_none_is_close_to_it(text):
+    found = dict(errors(text))
+    assert max(found[level] for level in LEVELS if level >= -3) <= CLOSE[text], found
+
+
+def test_few_samples_are_taken_where_few_are_enough():
+    def sides(text):
+        made = expression({"text": text}, -20)
+        return [made.at(level).side for level in (-3, 0, 6)]
+
+    assert sides("fbm(x, y) + bricks(x, y)*0.5") == [1, 1, 1]
+    assert sides("noise(x, y) > 0.5")[2] == 1
+    assert sides("noise(x*4, y*4) > 0.5")[0] > 1
+    assert sides("smoothstep(0.1, 0.2, fract(x))") == [4, 4, 4]
