@@ -46,7 +46,7 @@ from engine.texture.placed import PlacedInk
 from engine.texture.record import pictures_of
 from engine.texture.table import TextureError
 
-FORMAT = 6  # of paintings with selections, references, guides, paper or learnt detail
+FORMAT = 6  # of paintings with selections, references, guides, paper, learnt detail or examples without seams
 PLACED_FORMAT = 5  # of others with placements, or of the grid of 2^-12
 FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examples; 1: no colour left to ink
 MANIFEST = "inkfall/manifest.json"

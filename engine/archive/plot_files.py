@@ -34,7 +34,7 @@ from engine.strokes.example_textures import KIND, Origin, exemplar_of, key_of, p
 from engine.texture.example import region as regions
 from engine.texture.example.control import Channels
 from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar
-from engine.texture.example.parameters import FIELDS, Parameters, with_values
+from engine.texture.example.parameters import FIELDS, SEAMLESS, Parameters, with_values
 from engine.texture.example.region import Region
 from engine.texture.example.tiles import NONE, TILE_SIDE, Tiles, sealed
 from engine.texture.example.told import coarser as coarser_told
@@ -129,10 +129,11 @@ def entries(root: Group) -> dict[str, ExampleEntry]:
 
 
 def controlled(painting: Painting) -> bool:
-    """Tells whether anything has control channels, or has learnt."""
-    plots = (plot for layer in layers.layers(painting.root) for plot in layer.growth)
-    textures = any(one.maps or one.control for one in painting.textures.values())
-    return textures or any(plot.region.exemplar.control is not None for plot in plots)
+    """Tells whether anything has control channels, has learnt, or is grown without seams."""
+    grown = (plot.region.exemplar for layer in layers.layers(painting.root) for plot in layer.growth)
+    textures = painting.textures.values()
+    found = any(one.maps or one.control or one.parameters.get("method") == SEAMLESS for one in textures)
+    return found or any(one.control is not None or one.parameters.method == SEAMLESS for one in grown)
 
 
 def plot_json(entry: PlotEntry) -> dict[str, object]:

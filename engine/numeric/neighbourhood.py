@@ -144,3 +144,19 @@ def square_bits(side: int) -> np.uint64:
     """Returns the bits of the inner `side` x `side` pixels (3, 5 or 7)."""
     near = range(RADIUS - side // 2, RADIUS + side // 2 + 1)
     return np.uint64(sum(1 << SIDE * y + x for y in near for x in near))
+
+
+@lru_cache(maxsize=1)
+def straight_shapes() -> np.ndarray:
+    """Returns the shapes that straight outlines have around pixels inside: uint64 (n,), read-only."""
+    rows, columns = np.mgrid[-RADIUS : RADIUS + 1, -RADIUS : RADIUS + 1].reshape(2, -1)
+    found = set()
+    for y in range(-RADIUS, RADIUS + 1):
+        for x in range(-RADIUS, RADIUS + 1):
+            for far in range(1, 2 * RADIUS * SIDE):
+                inside = 2 * (y * rows + x * columns) < far
+                found.add(sum(1 << int(place) for place in np.flatnonzero(inside)))
+    found.discard(int(FULL))
+    out = np.array(sorted(found), np.uint64)
+    out.flags.writeable = False
+    return out

@@ -47,6 +47,7 @@ from engine.painting.layering.paper_command import SetPaper, read_colour
 from engine.painting.layering.touch_command import TouchCommand
 from engine.painting.places import BookmarkCommand
 from engine.painting.points import ALWAYS
+from engine.texture.example.parameters import SEAMLESS
 from engine.texture.record import LEARNT
 
 VERSION = 2  # that is read; older ones too
@@ -167,7 +168,7 @@ def _lasts(brush: Brush) -> bool:
 def _newer(parameters: Mapping[str, object]) -> bool:
     """Tells whether parameters of a texture are of version 2."""
     found = parameters.get("renew") is False, parameters.get("turn"), parameters.get("profile")
-    return any(found) or parameters.get("detail") == LEARNT
+    return any(found) or parameters.get("detail") == LEARNT or parameters.get("method") == SEAMLESS
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

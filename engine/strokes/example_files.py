@@ -29,11 +29,11 @@ _ANALYSED = ("levels", "channels", "alpha", "boundary", "smooth", "block")
 _DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error, NotImplementedError, MemoryError)
 
 
-def read_parameters(path: str | os.PathLike[str]) -> Parameters:
-    """Returns a TOML file; FileError names the file, the line and the field."""
+def read_parameters(path: str | os.PathLike[str], usual: Parameters | None = None) -> Parameters:
+    """Returns a TOML file, `usual` parameters where it tells none; FileError names the file, the line and the field."""
     data = _parameter_bytes(path)
     try:
-        return read_toml(data)
+        return read_toml(data, usual or Parameters())
     except FieldError as error:
         raise FileError(path, str(error)) from None
 

@@ -25,7 +25,7 @@ from engine.strokes.example_stroke import kind_of
 from engine.strokes.example_textures import KIND
 from engine.studio import faults, results
 from engine.studio import requests as q
-from engine.texture.example.parameters import Parameters
+from engine.texture.example.parameters import NEW
 from engine.texture.image import ImageSource
 
 _SIDE = 96  # pixels along the example: enough for several levels
@@ -86,4 +86,4 @@ def _texture() -> Texture:
     depth = _SIDE * 0.46 - np.hypot(x, y)
     alpha = np.clip(0.4 + depth / 8.0, 0.0, 1.0) * (depth > 0)
     planes = np.concatenate([random.random((3, _SIDE, _SIDE)) * alpha, alpha[None]]).astype(np.float32)
-    return Texture(KIND, Map(asdict(Parameters())), ImageSource.of("a", planes))
+    return Texture(KIND, Map(asdict(NEW)), ImageSource.of("a", planes))

@@ -58,11 +58,17 @@ def _parser() -> Parser:
     parser.add_argument("--neighbourhood", type=int, metavar="N", help="pixels along it: 3, 5 or 7 (default 7)")
     parser.add_argument("--levels", type=int, metavar="N", help="of the pyramid (default: by the example's size)")
     parser.add_argument("--every", type=int, metavar="K", help="search for one in K (default 8)")
-    parser.add_argument("--method", metavar="M", help="correction, or the paper's own, scanline (default correction)")
+    parser.add_argument(
+        "--method", type=_method, metavar="M", help="2, without seams (default), correction, as before, or scanline"
+    )
     parser.add_argument("--threads", type=whole(1, MOST), metavar="N", help="default: as many as there are cores")
     parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another texture (default 0)")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     return parser
+
+
+def _method(text: str) -> str | int:
+    return int(text) if text.isdecimal() else text
 
 
 def _check_paths(given: argparse.Namespace) -> None:
@@ -74,9 +80,9 @@ def _check_paths(given: argparse.Namespace) -> None:
 def _parameters(given: argparse.Namespace) -> Parameters:
     from engine.checks.field_error import FieldError
     from engine.strokes.example_files import read_parameters
-    from engine.texture.example.parameters import Parameters, with_values
+    from engine.texture.example.parameters import NEW, with_values
 
-    parameters = read_parameters(given.params) if given.params else Parameters()
+    parameters = read_parameters(given.params, NEW) if given.params else NEW
     told = {name: getattr(given, name) for name in _FIELDS if getattr(given, name) is not None}
     try:
         return with_values(parameters, told, "--")

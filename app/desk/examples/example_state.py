@@ -30,7 +30,7 @@ from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, loads
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
-from engine.texture.example.parameters import Parameters, read_toml, with_values
+from engine.texture.example.parameters import NEW, Parameters, read_toml, with_values
 
 OWN = "Own"  # the group of the artist's own
 HERE = "In this painting"  # the group of those that only the painting has
@@ -147,16 +147,16 @@ def _painted(entry: Entry) -> Entry:
 def _told(path: Path) -> tuple[Mapping[str, str], Parameters, Map[str, object], str]:
     """Returns the names (`group`, `title`), the parameters and the maps in a file, and what is wrong with it."""
     if not path.is_file():
-        return {}, Parameters(), Map(), ""
+        return {}, NEW, Map(), ""
     try:
         data = path.read_bytes()
-        parameters = read_toml(data)
+        parameters = read_toml(data, NEW)
         told = tomllib.loads(data.decode())
         names: dict[str, str] = {name: told[name] for name in ("group", "title") if name in told}
         maps: Map[str, object] = frozen(told.get("maps", {}))
         return names, parameters, maps, ""
     except (OSError, FieldError) as error:
-        return {}, Parameters(), Map(), str(error)
+        return {}, NEW, Map(), str(error)
 
 
 def within_reach(brush: Brush, level: int) -> bool:
@@ -306,7 +306,7 @@ def here(definitions: Iterable[tuple[str, str, Mapping[str, Any]]], state: Examp
     found = []
     for name, kind, told in definitions:
         if kind == KIND and not any(_is(entry, told, state) for entry in state.entries if entry.here is None):
-            found.append(Entry(name, HERE, NOWHERE, None, Parameters(), False, here=told))
+            found.append(Entry(name, HERE, NOWHERE, None, NEW, False, here=told))
     return found
 
 

@@ -19,7 +19,7 @@ from engine.brush.checks import thawed
 from engine.files.atomic import replacing
 from engine.studio.textures.texture_requests import RegionOpen
 from engine.studio.textures.texture_results import RegionScene
-from engine.texture.example.parameters import Parameters
+from engine.texture.example.parameters import NEW, Parameters
 
 SIDE = 1024  # pixels along an example, at most
 STEPS_CAP, STEPS_BYTES = 4096, 1 << 21  # in the definition of a texture, which is one line of a recording
@@ -77,7 +77,7 @@ def add(path: Path) -> tuple[str, bool]:
     name = free_file_name(path.stem)
     _write(_place(name, PICTURE), pixels)
     write_region(name, pixels[..., 3] > 0)
-    write_parameters(name, Parameters())
+    write_parameters(name, NEW)
     return name, smaller
 
 
@@ -91,7 +91,7 @@ def add_cut(entry: Entry, pixels: np.ndarray, instead: bool) -> list[str]:
         name = entry.name if instead and n == 0 else free_file_name(entry.given or entry.name)
         _write(_place(name, PICTURE), piece)
         write_region(name, grown_region(piece))
-        write_parameters(name, Parameters())
+        write_parameters(name, NEW)
         names.append(name)
     return names
 
@@ -143,7 +143,7 @@ def write_parameters(
     maps: Map[str, object] = Map(),  # noqa: B008
 ) -> None:
     """Writes those that are not as usual, what it is called if not as its files are, and its maps."""
-    usual, lines = asdict(Parameters()), [f'group = "{example_state.OWN}"']
+    usual, lines = asdict(NEW), [f'group = "{example_state.OWN}"']
     if title:
         lines.append(f"title = {json.dumps(title, ensure_ascii=False)}")
     for field, value in asdict(parameters).items():

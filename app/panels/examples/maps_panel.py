@@ -55,7 +55,7 @@ class MapsPanel:
         imgui.end_child()
         changed = maps != entry.maps
         text, hint = ("Save", "Keep these maps") if entry.own else ("Save as my own", "They go to a copy of your own")
-        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if changed else theme.RAISED))
+        imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft if changed else theme.look.raised))
         if w.text_button(f"{icons.DISK} {text}###save maps", hint, enabled=changed, width=-1):
             chart_work.keep_maps(desk)
         imgui.pop_style_color()

@@ -38,7 +38,6 @@ REACH = SUBPASSES * RADIUS  # pixels that a change can spread in a pass
 
 _FAR = np.int32(2**31 - 1)
 _RIM_CANDIDATES = 8
-_SHAPES = 64  # of which the nearest are searched
 _ONE_IN = 3  # shapes at most, drawn by place: along a straight rim the best of all would be the same again and again
 _COUNTS_APART, _SHAPES_APART = 2, 2  # of what is searched at a rim: neighbours inside, and pixels of the shape
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
@@ -103,7 +102,9 @@ def _energy(
     At a `rim` what lies outside the region does not count but for its shape.
     """
     row, column = name >> 16, name & 0xFFFF
-    e = np.int32(rules.penalty * max(0, ones(bits ^ (example.bits[row, column] & rules.square)) - rules.leeway))
+    other = example.bits[row, column] & rules.square
+    e = np.int32(rules.penalty * max(0, ones(bits ^ other) - rules.leeway))
+    e += np.int32(rules.depth * max(0, abs(ones(bits) - ones(other)) - 1))
     e += told_apart(window, y, x, example, name, rules)
     if e >= least:
         return e
@@ -218,7 +219,7 @@ def _searched_rim(
     """
     way = way_of(window, y, x, example)
     first, last = _alike(example.starts[way : way + COUNTS + 1], ones(window.bits[y, x]))
-    step = max(_ONE_IN, (last - first) // _SHAPES)
+    step = max(_ONE_IN, (last - first) // rules.shapes)
     first += np.int64(h % np.uint64(step))
     nearest, count = np.int32(SIDE * SIDE + 1), 0
     for i in range(first, last, step):

@@ -18,9 +18,9 @@ from engine.numeric.array_functions import array_functions
 from engine.numeric.blur import blurred
 from engine.numeric.colour import to_rgba16
 from engine.numeric.halving import halved, halved_region
-from engine.numeric.neighbourhood import FULL, RADIUS, region_bits
+from engine.numeric.neighbourhood import FULL, RADIUS, region_bits, straight_shapes
 from engine.texture.example.control import Control
-from engine.texture.example.parameters import MOST_LEVELS, Parameters
+from engine.texture.example.parameters import MOST_LEVELS, SEAMLESS, Parameters
 
 PAD = RADIUS + 1  # a neighbourhood and one pixel more, to fill the register
 EXAMPLE_SIDE = 1024  # pixels along an example, at most
@@ -30,6 +30,7 @@ COUNTS = 50  # of region pixels among 7 x 7
 _COARSEST, _COARSEST_BOUNDED = 11, 17
 _CHOICES = 25  # of where a patch comes from, at least
 _SMOOTHED = 0.32  # of a smoothed mask: where its region ends, a little outside the old one
+_RIM_SHAPES = 256  # that are looked at, about
 _LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
@@ -90,6 +91,20 @@ class Exemplar:
             names = level.order if several else level.order[: level.starts[COUNTS - 1]]
             found.append(_frozen(np.append(level.bits[names >> 16, names & 0xFFFF], FULL)))
         return tuple(found)
+
+    @property
+    def seamless(self) -> bool:
+        """Tells whether it is grown by the method SEAMLESS, which knows nothing of control channels."""
+        return self.parameters.method == SEAMLESS and self.control is None
+
+    @cached_property
+    def ragged(self) -> int:
+        """Tells by how many pixels of their 7 x 7, at most, three in four shapes of the rim are other than straight
+        ones, at the finest level."""
+        shapes = self.shapes[0]
+        some = shapes[:-1][:: max(1, shapes.size // _RIM_SHAPES)]
+        apart = np.sort(np.bitwise_count(some[:, None] ^ straight_shapes()).min(axis=1))
+        return int(apart[3 * apart.size // 4]) if apart.size else 0
 
     @cached_property
     def colours(self) -> tuple[np.ndarray, ...]:

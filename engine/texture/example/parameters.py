@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 from engine.checks.field_error import FieldError
 from engine.checks.values import is_integer, is_within
 
-METHODS = ("correction", "scanline")
+SEAMLESS = 2  # the method of new definitions
+METHODS = ("correction", "scanline", SEAMLESS)
 CHANNELS = ("colour", "luminance")
 BOUNDARIES = ("auto", "yes", "no")
 MOST_LEVELS = 8
@@ -20,14 +21,16 @@ ORIENTATION, RIM_CHANNEL = "orientation", "rim"  # control channels with a meani
 
 @dataclass(frozen=True, slots=True)
 class Parameters:
-    """`kappa`: how much nearer a pixel from elsewhere in the example must be than one that continues what lies around
-    it, at a rim 1.5 at most; `neighbourhood`: pixels along its side; `levels`: of the pyramid, 0 to choose by the
-    example's size; `every`: one in so many pixels (scanline) or candidates of the coarsest level (correction) is
-    searched for; `channels`, `alpha`: what is compared; `e_max`: the energy of a pixel inside the region against one
-    outside, where 1 is a channel from black to white; `boundary`: whether the example shows its rim ("auto": unless
-    it fills its picture); `smooth`: pixels over which its mask is smoothed; `block`: pixels along the patches of the
-    coarsest level; `passes`: corrections at each finer level; `feather`: pixels over which seams are blended, 0 to 3;
-    half as many, rounded down, in an example with a rim."""
+    """`kappa`: how much nearer a pixel from elsewhere in the example must be than one that continues what lies
+    around it, at a rim 1.5 at most; `neighbourhood`: pixels along its side; `levels`: of the pyramid, 0 to choose
+    by the example's size; `every`: one in so many pixels (scanline) or candidates of the coarsest level
+    (correction) is searched for, 125 times as few with SEAMLESS; `channels`, `alpha`: what is compared; `e_max`:
+    the energy of a pixel inside the region against one outside, where 1 is a channel from black to white;
+    `boundary`: whether the example shows its rim ("auto": unless it fills its picture); `smooth`: pixels over which
+    its mask is smoothed; `block`: pixels along the patches of the coarsest level; `passes`: corrections at each
+    finer level; `feather`: pixels over which seams are blended, 0 to 3; half as many, rounded down, in an example
+    with a rim; `method`: "correction", "scanline", or SEAMLESS, which lays out pieces that fit one another and
+    takes rims from more places."""
 
     kappa: float = 2.0
     neighbourhood: int = 7
@@ -41,7 +44,11 @@ class Parameters:
     block: int = 14
     passes: int = 1
     feather: int = 2
-    method: str = "correction"
+    method: str | int = "correction"
+
+
+_USUAL = Parameters()
+NEW = Parameters(method=SEAMLESS)  # what new definitions begin with
 
 
 class Field(NamedTuple):
@@ -117,9 +124,9 @@ def check(name: str, value: Any, place: str) -> None:
         raise FieldError(place, _shown(value), row.expected)
 
 
-def read_toml(data: bytes) -> Parameters:
-    """Returns the parameters in a file's bytes; `title` and `group`, under which a palette lists the example, and its
-    `maps` are none of them.
+def read_toml(data: bytes, usual: Parameters = _USUAL) -> Parameters:
+    """Returns the parameters in a file's bytes, `usual` ones where it does not tell; `title` and `group`, under which a
+    palette lists the example, and its `maps` are none of them.
 
     FieldError names the line and the field.
     """
@@ -132,7 +139,7 @@ def read_toml(data: bytes) -> Parameters:
         raise FieldError(f"line {line_of(text, 'maps')}, maps", "something else", "a table of maps")
     for field, value in told.items():
         check(field, value, f"line {line_of(text, field)}, {_clipped(field)}")
-    return with_values(Parameters(), told)
+    return with_values(usual, told)
 
 
 def map_table(data: bytes) -> dict[str, object]:

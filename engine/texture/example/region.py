@@ -20,7 +20,7 @@ from engine.numeric.address import Rect
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
 from engine.numeric.neighbourhood import RADIUS
-from engine.texture.example import correction, starts, tiles, told
+from engine.texture.example import correction, pieces, starts, tiles, told
 from engine.texture.example.correction import REACH
 from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.region_value import Filled as Filled
@@ -38,7 +38,7 @@ from engine.texture.example.region_window import (
 from engine.texture.example.rules import example_of, rules_of
 from engine.texture.example.tiles import NONE, Tiles
 
-COARSEST_PASSES = 2
+COARSEST_PASSES = 2  # of the method "correction"
 _DOMAIN, _PATCHES = 0x65786D70, 0x70617463  # tell these hashes from those of other textures
 _AT_ONCE = 640  # pixels along a window, at most; larger ones are refined in squares of _SQUARE
 _SQUARE = 512
@@ -192,7 +192,9 @@ def _coarsest(region: Region, n: int) -> bool:
 
 
 def _passes(region: Region, n: int) -> int:
-    return COARSEST_PASSES if _coarsest(region, n) else region.exemplar.parameters.passes
+    if not _coarsest(region, n):
+        return region.exemplar.parameters.passes
+    return 1 if region.exemplar.seamless else COARSEST_PASSES
 
 
 def _squares(region: Region, n: int, shared: bool) -> list[Square]:
@@ -274,11 +276,14 @@ def _start_coarsest(region: Region, window: Window, rect: Rect) -> None:
     block = exemplar.block
     x, y = rect.x0 // block, rect.y0 // block
     columns, rows = (rect.x1 - 1) // block + 1 - x, (rect.y1 - 1) // block + 1 - y
-    patches = hash_plane(fold_key(_PATCHES, region.seed), x, y, columns, rows)
-    n = len(exemplar.levels) - 1
-    offset = rect.y0 - y * block, rect.x0 - x * block
-    arrays = patches, exemplar.blocks
-    starts.start_coarsest(window, *arrays, block, offset, example_of(exemplar, n), rules_of(exemplar, n))
+    key, n = fold_key(_PATCHES, region.seed), len(exemplar.levels) - 1
+    offset, example = (rect.y0 - y * block, rect.x0 - x * block), example_of(exemplar, n)
+    if exemplar.seamless:
+        wanted = pieces.squares_of(window.mask, offset, block, (rows, columns))
+        patches = pieces.fitting(key, Rect.at(x, y, columns, rows), exemplar.blocks, block, example, wanted)
+    else:
+        patches = hash_plane(key, x, y, columns, rows)
+    starts.start_coarsest(window, patches, exemplar.blocks, block, offset, example, rules_of(exemplar, n))
 
 
 def _correcting(region: Region, n: int, window: Window, room: int, threads: Executor | None) -> Iterator[float]:

@@ -36,7 +36,8 @@ class Rules(NamedTuple):
     """`penalty`: energy of a pixel of another shape; `leeway`: so many of those are free; `square`: bits of the
     neighbourhood; `kappa`, `rim_kappa`: 256 (1 + kappa), inside and at a rim; `stride`: of the search through all
     candidates, 0 for none; `rims`: whether the region's shape counts; `told`: int32, the weights of control channels,
-    none at levels where they do not count."""
+    none at levels where they do not count; `depth`: energy of a neighbour more or less inside, beyond one; `shapes`: of
+    a rim that are searched, about, at most; `pieces`: whether rims start from pieces of the example's."""
 
     weights: np.ndarray
     square: np.uint64
@@ -47,6 +48,9 @@ class Rules(NamedTuple):
     stride: int
     rims: bool
     told: np.ndarray
+    depth: int
+    shapes: int
+    pieces: bool
 
 
 class Window(NamedTuple):

@@ -15,6 +15,8 @@ _CANDIDATES = 1024  # of a search at the coarsest level, at most: an example may
 _LEEWAY = 6, 2
 # At a rim, at most: else where a stroke is narrow what continues one side of it goes on to its other side.
 _RIM_KAPPA = 1.5
+_SHAPES, _FEW = 64, 11  # of a rim, of which the nearest are searched; and without seams
+_RARER = 125  # times as few candidates are searched at the coarsest level without seams
 _MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
 
 
@@ -33,14 +35,34 @@ def rules_of(exemplar: Exemplar, n: int) -> Rules:
     size = SIDE * SIDE / given.neighbourhood**2
     lists = exemplar.levels[n].starts.size // (COUNTS + 1)
     penalty = int(min(given.e_max * size, _MOST) * 65025 * WEIGHT)
-    return Rules(
+    leeway = _LEEWAY[above] if n >= 2 and above < len(_LEEWAY) and exemplar.boundary else 0
+    rules = Rules(
         weights(given.neighbourhood),
         square_bits(given.neighbourhood),
         penalty,
-        _LEEWAY[above] if n >= 2 and above < len(_LEEWAY) and exemplar.boundary else 0,
+        leeway,
         int(256 * (1.0 + given.kappa)),
         int(256 * (1.0 + min(given.kappa, _RIM_KAPPA))),
         max(given.every, exemplar.levels[n].order.size // lists // _CANDIDATES) if above == 0 else 0,
         exemplar.boundary,
         NO_WEIGHTS if exemplar.control is None else exemplar.control.weights,
+        0,
+        _SHAPES,
+        False,
+    )
+    return _seamless(rules, exemplar.ragged) if exemplar.seamless else rules
+
+
+def _seamless(rules: Rules, ragged: int) -> Rules:
+    """Without seams: neither the coarsest level's pieces are searched for what is better, nor all of a rim's shapes.
+
+    What is the best anywhere would be it again and again, and it would be plain and faint: what has little of its own
+    is not far from anything.  The more ragged a rim, the less its shapes tell, and the fewer are looked at.
+    """
+    return rules._replace(
+        leeway=max(0, ragged - 1),
+        stride=rules.stride * _RARER,
+        depth=rules.penalty // 2,
+        shapes=max(1, _FEW - 5 * ragged // 2),
+        pieces=True,
     )

@@ -110,13 +110,16 @@ def _draw(
         for x in range(width):
             if window.mask[y, x] and (window.need[0, y, x] or starts[y, x] < 0):
                 row, column = y + offset[0], x + offset[1]
-                drawn = patches[row // block, column // block] % np.uint64(corners.size)
-                start = corners[drawn] + np.int32((row % block) << 16 | (column % block))
+                chance = patches[row // block, column // block]
+                place = np.int32((row % block) << 16 | (column % block))
+                start = corners[chance % np.uint64(corners.size)] + place
                 if rules.told.size:
-                    chance, middle = patches[row // block, column // block], np.int32((block >> 1) << 16 | block >> 1)
-                    drawing = chance, corners, np.int32((row % block) << 16 | column % block), middle
-                    start = _as_told(window, y, x, start, drawing, example, rules)
-                starts[y, x] = _shaped(window, y, x, start, example, rules)
+                    middle = np.int32((block >> 1) << 16 | block >> 1)
+                    start = _as_told(window, y, x, start, (chance, corners, place, middle), example, rules)
+                if rules.pieces:
+                    starts[y, x] = _piece(window.bits[y, x], start, chance, place, example, rules)
+                else:
+                    starts[y, x] = _shaped(window, y, x, start, example, rules)
 
 
 @inner_uncounted
@@ -170,4 +173,20 @@ def _shaped(window: Window, y: Int, x: Int, start: Int, example: Example, rules:
             chance = mix64(h + np.uint64(i) * _GOLDEN)
             if apart < least or chance > drawn:
                 least, drawn, start = apart, chance, example.order[i]
+    return start
+
+
+@inner_uncounted
+def _piece(bits: Int, start: Int, chance: Int, place: Int, example: Example, rules: Rules) -> Int:
+    """As `_shaped`, but all pixels of a patch, `place` being where this one lies in it, draw the same part of the
+    example, as far as it has their shapes there."""
+    if not rules.rims or ones(bits ^ example.bits[start >> 16, start & 0xFFFF]) <= _ALIKE:
+        return start
+    least, drawn = np.int32(50), np.uint64(0)
+    for i in range(example.order.size):
+        apart = max(_DRAWN, ones(bits ^ shape_at(example, i)))
+        if apart <= least:
+            rank = mix64(chance + np.uint64(np.int64(example.order[i] - place)) * _GOLDEN)
+            if apart < least or rank > drawn:
+                least, drawn, start = apart, rank, example.order[i]
     return start

@@ -24,6 +24,8 @@ EXEMPLARS = {
     "unbounded": unbounded(),
     "two passes": bounded(passes=2, neighbourhood=5),
     "told": controlled(),
+    "seamless": bounded(method=2),
+    "seamless, unbounded": unbounded(method=2),
 }
 EXAMPLES = Path(__file__).parents[3] / "palettes" / "examples"
 places = st.tuples(st.integers(-40, 60), st.integers(-40, 60), st.integers(1, 24))
@@ -203,7 +205,7 @@ def depths(mask):
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.parametrize(("side", "values"), [(64, {}), (120, {}), (120, {"passes": 2})])
+@pytest.mark.parametrize(("side", "values"), [(64, {}), (120, {}), (120, {"passes": 2}), (120, {"method": 2})])
 def test_rims_come_from_rims_and_insides_from_insides(side, values, seed):
     exemplar = bounded(side, **values)
     y, x = np.mgrid[:160, :260]

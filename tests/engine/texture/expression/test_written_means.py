@@ -3,10 +3,10 @@ against the next finer one, reduced: the shimmer test.  Errors are rms, in 1/255
 
 import numpy as np
 import pytest
+from engine.texture.expression.told import expression
 
 from engine.numeric.address import Rect
 from engine.texture.expression.examined import shimmer
-from engine.texture.expression.told import expression
 
 LEVELS = range(-5, 5)
 SIDE = 16  # pixels along a square that is looked at
