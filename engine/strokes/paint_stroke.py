@@ -30,10 +30,10 @@ from engine.canvas.painted import tile_bounds
 from engine.canvas.selecting.mask_sheet import repainted
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.prediction import Predictor
+from engine.painting.crowding import refuse_crowd
 from engine.painting.grown import threads
 from engine.painting.value import Painting
 from engine.strokes.bed import Bed, Meeting
-from engine.strokes.crowding import refuse_crowd
 from engine.strokes.heap_stroke import NO_EDITS, Untouched, heap_plan
 from engine.strokes.live_stroke import Drawn
 from engine.strokes.mask_painting import edit_of

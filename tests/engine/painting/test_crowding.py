@@ -6,9 +6,9 @@ from immutables import Map
 
 from engine.brush.settings import Brush, Component
 from engine.painting import commands as c
+from engine.painting import crowding
 from engine.painting.value import Refusal
 from engine.session.session import Session
-from engine.strokes import crowding
 
 POINTS = np.array([[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [5.0, 3.0, 1.0, 0.0, 0.0, 0.1]])
 
