@@ -10,6 +10,7 @@ from imgui_bundle import imgui  # noqa: F401  # before glfw, so that both use on
 
 from app.actions.actions import ACTIONS, by_key, keyed, perform
 from app.actions.binding import BringKeys, bound_with, change_keys, keys_with, lay_keys, owner_of
+from app.actions.chosen_map import OWN_KEYS, take_map
 from app.actions.key_maps import KEY_MAPS
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
@@ -160,3 +161,14 @@ def test_a_map_goes_from_desk_to_desk(desk, tmp_path):
     assert (desk.keys.bound, desk.keys.told) == (given, "Brought in given.json, 1 of what there is not")
     desk.work(BringKeys(tmp_path / "none.json"))
     assert desk.keys.told == "none.json: there is no such file"
+
+
+def test_a_ready_made_map_leaves_the_way_back_to_ones_own(desk):
+    change_keys(desk, bound_with(desk.keys.bound, "eraser", ("Q",)))
+    change_keys(desk, bound_with(desk.keys.bound, brush_row("Moss"), ("F12",)))
+    own = desk.keys.bound
+    assert "“Your own” has yours again" in take_map(desk, "krita", OWN_KEYS)
+    assert desk.keys.bound == {**KEY_MAPS["krita"].bound, brush_row("Moss"): ("F12",)}
+    assert "“Your own”" not in take_map(desk, "photoshop", "krita")
+    take_map(desk, OWN_KEYS, "photoshop")
+    assert desk.keys.bound == own

@@ -12,12 +12,13 @@ _BRUSH = "brush:"
 @dataclass(slots=True)
 class KeyState:
     """`bound`: what is bound otherwise than it comes; `listening`: the next press is for the list of keys, which takes
-    it from `pressed`; `told`: a line about a map that was brought in."""
+    it from `pressed`; `told`: a line about a map that was brought in; `own`: what a ready-made map replaced."""
 
     bound: Bound = field(default_factory=dict)
     listening: bool = False
     pressed: str = ""
     told: str = ""
+    own: Bound = field(default_factory=dict)
 
 
 def brush_row(preset: str) -> str:

@@ -9,6 +9,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions.actions import ACTIONS, MENUS
 from app.actions.binding import bound_with, change_keys, keys_with, owner_of, row_action, usual_keys
+from app.actions.chosen_map import OWN_KEYS, take_map
 from app.actions.key_maps import KEY_MAPS
 from app.desk.desk import Desk
 from app.desk.keys.key_state import Bound, brush_of, brush_row
@@ -151,13 +152,12 @@ class Keys:
         w.named("find keys")
         w.tooltip("Words of what it does, or a key")
         imgui.same_line()
-        current = next((name for name, row in KEY_MAPS.items() if _alike(row.bound, desk.keys.bound)), "")
-        titles = [(name, row.title) for name, row in KEY_MAPS.items()] + ([] if current else [("", "Your own")])
+        current = next((name for name, row in KEY_MAPS.items() if _alike(row.bound, desk.keys.bound)), OWN_KEYS)
+        own = [(OWN_KEYS, "Your own")] if current == OWN_KEYS or desk.keys.own else []
+        titles = [(name, row.title) for name, row in KEY_MAPS.items()] + own
         chosen = w.choice("key map", current, titles, "Ready-made maps; keys of brushes stay", 9 * em)
         if chosen and chosen != current:
-            brushes = {row: keys for row, keys in desk.keys.bound.items() if brush_of(row)}
-            change_keys(desk, {**KEY_MAPS[chosen].bound, **brushes})
-            self._told = KEY_MAPS[chosen].hint
+            self._told = take_map(desk, chosen, current)
         imgui.same_line()
         if w.text_button("Bring in…##keys", "Keys from a file"):
             desk.asked.show("keys from")
