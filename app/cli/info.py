@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from engine.canvas.selecting.selection import Selection
     from engine.canvas.store import Pyramid
     from engine.numeric.address import Rect
+    from engine.painting.textures import Texture
     from engine.session.here.painted_here import ShownStroke
 
 _WIDE = 2048  # pixels: how finely bounds are found
@@ -129,6 +130,7 @@ def facts(found: Opened) -> dict[str, Any]:
         "levels": levels,
         "bytes": sum(record.nbytes for record in records),
         "textures": {name: texture.kind for name, texture in sorted(painting.textures.items())},
+        "maps": {name: maps for name, texture in sorted(painting.textures.items()) if (maps := _maps(texture))},
         "bookmarks": [write_bookmark(mark) for mark in painting.bookmarks.values()],
         "selected": None if painting.selection is None else selection(painting.selection),
         "selections": {name: selection(kept) for name, kept in sorted(painting.selections.items())},
@@ -140,6 +142,11 @@ def facts(found: Opened) -> dict[str, Any]:
 def selection(kept: Selection) -> dict[str, Any]:
     """Tells a selection: its bounds, or those of all that it is not (`inverse`), and its bytes."""
     return {"inverse": kept.inverse, "bounds": painted_bounds(kept.pyramid), "bytes": kept.pyramid.nbytes}
+
+
+def _maps(texture: Texture) -> list[str]:
+    """Returns the control channels of an example."""
+    return [str(row[0]) for row in texture.parameters.get("controls", ())] if texture.control is not None else []
 
 
 def _row(node: Node, group: str | None, names: dict[int, str]) -> dict[str, Any]:
@@ -247,7 +254,8 @@ def _print(told: dict[str, Any]) -> None:
     for key in told["inks"]:
         print(f"ink: {key[0]}, base level {key[1]}, {', '.join(map(str, key[2:])) or 'no parameters'}")
     for name, kind in told["textures"].items():
-        print(f"texture: {name}, {kind}")
+        maps = f", told by {', '.join(told['maps'][name])}" if name in told["maps"] else ""
+        print(f"texture: {name}, {kind}{maps}")
     for mark in told["bookmarks"]:
         (x, y), (width, height) = mark["origin"], mark["size"]
         print(f"bookmark: {mark['name']!r}, {width:g} x {height:g} at {x}, {y} of level {mark['level']:g}")

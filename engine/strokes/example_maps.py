@@ -21,9 +21,12 @@ from engine.files.images import read_image
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.painting import commands as c
+from engine.strokes.example_files import read_mask
 from engine.texture.example.control import MOST_CHANNELS, Channel, Channels, ordered, rim_of
+from engine.texture.example.controlled import analysed_with
+from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.flow import flow_around
-from engine.texture.example.parameters import ORIENTATION, RIM_CHANNEL
+from engine.texture.example.parameters import ORIENTATION, RIM_CHANNEL, Parameters
 from engine.texture.image import ImageSource
 
 MAP_STROKES_CAP = 4096
@@ -144,10 +147,10 @@ def _plane(given: Given, folder: Path | None, region: np.ndarray, place: str) ->
     return base
 
 
-def _read(path: str | Path, shape: tuple[int, ...]) -> np.ndarray:
+def _read(path: str | Path, shape: tuple[int, ...], like: str = "the example") -> np.ndarray:
     pixels, _ = read_image(path)
     if pixels.shape[:2] != shape:
-        found = f"found {pixels.shape[1]} x {pixels.shape[0]} pixels, expected {shape[1]} x {shape[0]} as the example"
+        found = f"found {pixels.shape[1]} x {pixels.shape[0]} pixels, expected {shape[1]} x {shape[0]} as {like}"
         raise FileError(path, found)
     full = int(np.iinfo(pixels.dtype).max)
     summed = pixels[..., :3].astype(np.int64).sum(axis=-1) * 255
@@ -177,3 +180,27 @@ def _run_along(base: np.ndarray, strokes: list[object], place: str) -> np.ndarra
     if len(lines) > _LINES_CAP:
         raise FieldError(place, f"strokes of {len(lines)} pieces", f"at most {_LINES_CAP}")
     return flow_around(np.array(lines, np.float64), base.shape) if lines else base
+
+
+def read_controlled(
+    path: str, mask: str | None, parameters: Parameters, maps: tuple[Given, ...], folder: Path
+) -> Exemplar:
+    """Returns the exemplar of a picture file that has maps, whose paths start from a folder; otherwise as
+    `example_files.read_exemplar`."""
+    pixels, _ = read_image(path)
+    inside = pixels[..., 3] > 0 if mask is None else read_mask(mask)
+    if inside.shape != pixels.shape[:2]:
+        found = f"found {inside.shape[1]} x {inside.shape[0]} pixels, expected {pixels.shape[1]} x {pixels.shape[0]}"
+        raise FileError(mask or path, f"{found} as the example")
+    if parameters.method == "scanline":
+        raise FieldError("maps", 'maps with method "scanline"', 'method "correction"')
+    channels, picture = made("", maps, folder, inside)
+    try:
+        return analysed_with(pixels, inside, parameters, (channels, control_planes(picture, len(channels))))
+    except FieldError as error:
+        raise FileError(path, str(error)) from None
+
+
+def read_told(path: str, shape: tuple[int, ...]) -> np.ndarray:
+    """Returns what a grey picture tells of a map: uint8 (h, w), which is its `shape`."""
+    return _read(path, shape, "the region")

@@ -270,8 +270,6 @@ def _analysed(origin: Origin, parameters: Parameters, arithmetic: int) -> Exempl
     pixels = to_rgba16(source.planes(source.whole))
     if origin.control is None:
         return replace(kept(pixels, inside, parameters, arithmetic=arithmetic), origin=origin)
-    if parameters.method == "scanline":
-        raise FieldError("maps", 'maps with method "scanline"', 'method "correction"')
     planes = example_maps.control_planes(origin.control, len(origin.channels))
     if planes.shape[1:] != (height, width):
         size = f"{origin.control.width} x {origin.control.height} pixels"

@@ -8,6 +8,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from app.cli.arguments import Parser, seed
@@ -36,11 +37,11 @@ def run(words: list[str]) -> int:
     checked_output(given.out, (".png",))
     _check_paths(given)
     parameters = _parameters(given)
-    from engine.strokes.example_files import read_exemplar, read_mask
+    from engine.strokes.example_files import read_mask
 
     region = read_mask(given.region)
     _check_size(given, region)
-    exemplar = read_exemplar(given.example, given.mask, parameters)
+    exemplar = _exemplar(given, parameters)
     pixels = _fill(exemplar, region, given)
     write(given.out, pixels)
     _tell(given, exemplar, region, pixels)
@@ -54,6 +55,14 @@ def _parser() -> Parser:
     parser.add_argument("--out", metavar="P.png", required=True, help="where the picture goes")
     parser.add_argument("--mask", metavar="M.png", help="the example's region is white in it (default: alpha > 0)")
     parser.add_argument("--params", metavar="P.toml", help="parameters of the example; options here go before it")
+    parser.add_argument(
+        "--told",
+        action="append",
+        default=[],
+        metavar="NAME=P.png",
+        help="what the picture, as large as R, tells of a map that the parameters name: orientation, grey being a part"
+        " of a turn, clockwise from rightwards, or another",
+    )
     parser.add_argument("--kappa", type=float, metavar="K", help="larger: larger pieces of the example (default 2)")
     parser.add_argument("--neighbourhood", type=int, metavar="N", help="pixels along it: 3, 5 or 7 (default 7)")
     parser.add_argument("--levels", type=int, metavar="N", help="of the pyramid (default: by the example's size)")
@@ -90,6 +99,41 @@ def _parameters(given: argparse.Namespace) -> Parameters:
         raise Refused(str(error)) from None
 
 
+def _exemplar(given: argparse.Namespace, parameters: Parameters) -> Exemplar:
+    """Returns the example, with the maps that its parameters name."""
+    from engine.checks.field_error import FieldError
+    from engine.strokes import example_maps
+    from engine.strokes.example_files import read_exemplar, read_map_table
+
+    try:
+        maps = example_maps.read_maps(read_map_table(given.params) if given.params else {})
+        if not maps:
+            return read_exemplar(given.example, given.mask, parameters)
+        return example_maps.read_controlled(given.example, given.mask, parameters, maps, Path(given.params).parent)
+    except FieldError as error:
+        raise Refused(f"{given.params}: {error}") from None
+
+
+def _told(exemplar: Exemplar, region: np.ndarray, given: argparse.Namespace) -> np.ndarray | None:
+    """Returns what pictures tell of the region, by the maps that are not found of it: uint8 (maps, h, w); None where
+    there are none."""
+    import numpy as np
+
+    from engine.strokes.example_maps import read_told
+    from engine.texture.example.control import stored_channels
+
+    control = exemplar.control
+    names = [] if control is None else [channel.name for channel in stored_channels(control.channels)]
+    usual = () if control is None else control.usual
+    planes = [np.full(region.shape, value, np.uint8) for value in usual]
+    for option in given.told:
+        name, _, path = option.partition("=")
+        if name not in names or not path:
+            raise Refused(f"--told: found {option}, expected NAME=P.png, NAME one of {', '.join(names) or 'none'}")
+        planes[names.index(name)] = read_told(path, region.shape)
+    return np.stack(planes) if planes else None
+
+
 def _check_size(given: argparse.Namespace, region: np.ndarray) -> None:
     if region.size > _PIXELS:
         height, width = region.shape
@@ -108,7 +152,7 @@ def _fill(exemplar: Exemplar, region: np.ndarray, given: argparse.Namespace) -> 
         from engine.texture.example.scanline import filled
 
         return filled(exemplar, region, given.seed)
-    grown = painted(empty(exemplar, given.seed), rect, region)
+    grown = painted(empty(exemplar, given.seed), rect, region, values=_told(exemplar, region, given))
     count = len(exemplar.levels)
     with Progress("growing", 100) as bar, _threads(given.threads) as pool:
         for step in refining(grown, threads=pool):
@@ -146,6 +190,7 @@ def _tell(given: argparse.Namespace, exemplar: Exemplar, region: np.ndarray, pix
         **asdict(exemplar.parameters),
         "levels": len(exemplar.levels),
         "boundary": exemplar.boundary,
+        "maps": [] if exemplar.control is None else [channel.name for channel in exemplar.control.channels],
     }
     if given.json:
         print(json.dumps(facts))
