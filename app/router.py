@@ -56,6 +56,7 @@ class Router:
         desk, told = self.desk, felt(event, self.desk.preferred.now)
         if told is None:
             return
+        desk.trial.take(event, told)
         desk.pointer.pressed, event = event.pressure, told
         desk.pointer.pressure = event.pressure
         desk.pointer.x, desk.pointer.y, desk.pointer.pen = event.x, event.y, event.pen

@@ -214,6 +214,9 @@ class Window:
         self._catch_up()
         if self.news.take(now):
             self.pace.news(now)
+        told = desk.trial.heard(*self.pointers.heard()) if self._files is not None else ""
+        if told:
+            desk.say(told)
         moving = desk.glide.moving
         with spare("on the view's way"):
             desk.view = desk.glide.step(desk.view, seconds)

@@ -37,6 +37,7 @@ from app.desk.notices import Notice, Notices
 from app.desk.outside.opened_files import OpenedFiles
 from app.desk.past.past_state import PastState
 from app.desk.places.place_state import PlaceState
+from app.desk.preferring.pen_trial import PenTrial
 from app.desk.preferring.preferred import Preferred
 from app.desk.previews import FileRow
 from app.desk.proofing.proof_state import ProofState
@@ -132,6 +133,7 @@ class Desk:
     arranged: Arranged = field(default_factory=Arranged)
     insets: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom taken by panels
     pointer: Pointer = field(default_factory=Pointer)
+    trial: PenTrial = field(default_factory=PenTrial)
     glide: Glide = field(default_factory=Glide)
     message: Message = Message()  # noqa: RUF009  # it never changes
     notices: Notices = field(default_factory=Notices)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import glfw
 
-from app.input.events import PointerSource
+from app.input.events import PenSource
 
 if TYPE_CHECKING:
     from app.input.key_times import KeyTimes
 
 
-def pen_source(window: Any) -> PointerSource | None:
+def pen_source(window: Any) -> PenSource | None:
     """Returns a source that knows pens; None where there is none, then GLFW's mouse stays."""
     try:
         if sys.platform == "win32":

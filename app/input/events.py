@@ -53,3 +53,11 @@ class PointerSource(Protocol):
     def close(self) -> None:
         """Stops listening."""
         ...
+
+
+class PenSource(PointerSource, Protocol):
+    """One that hears pens."""
+
+    def tablets(self) -> list[str]:
+        """Returns the names of the pens that are there, as far as it knows them."""
+        ...

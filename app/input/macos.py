@@ -29,6 +29,7 @@ class MacPointer:
 
         self._kit, self._window, self._wake = AppKit, window, wake
         self._queue: deque[PenEvent] = deque()
+        self._heard = False
         self._monitor = AppKit.NSEvent.addLocalMonitorForEventsMatchingMask_handler_(_MASK, self._take)
 
     def _take(self, event: Any) -> Any:
@@ -51,6 +52,7 @@ class MacPointer:
             pen=True,
         )
         self._queue.append(found)
+        self._heard = True
         self._wake()
         return None
 
@@ -59,6 +61,10 @@ class MacPointer:
         out = list(self._queue)
         self._queue.clear()
         return out
+
+    def tablets(self) -> list[str]:
+        """Returns the name of what pens were heard by, once one was: pens are known by their events."""
+        return [self.name] if self._heard else []
 
     def close(self) -> None:
         """Stops listening."""

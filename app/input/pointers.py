@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import glfw
 
 from app.input.choose import key_times, pen_source
-from app.input.events import PenEvent, PointerSource
+from app.input.events import PenEvent, PenSource, PointerSource
 from app.input.glfw_events import GlfwPointer
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ class Pointers:
     def __init__(self, window: Any) -> None:
         self._window = window
         self.mouse: PointerSource = GlfwPointer(window)
-        self._pen: PointerSource | None = None
+        self._pen: PenSource | None = None
         self._keys: KeyTimes | None = None
         self._later: list[PenEvent] = []  # what came after a key that was told
 
@@ -47,6 +47,10 @@ class Pointers:
         first = next((i for i, event in enumerate(found) if after(event, time)), len(found))
         self._later = found[first:]
         return [*mouse, *found[:first]]
+
+    def heard(self) -> tuple[str, tuple[str, ...]]:
+        """Returns how pens are heard, "" where they are not, and the names of those that are there."""
+        return (self._pen.name, tuple(self._pen.tablets())) if self._pen is not None else ("", ())
 
     def at(self) -> tuple[float, float]:
         """Tells where the mouse is, framebuffer pixels: while something is dragged, no events tell."""

@@ -69,6 +69,7 @@ class WindowsPointer:
         self._user: Any = ct.WinDLL("user32")  # type: ignore[attr-defined]
         self._window, self._wake = window, wake
         self._queue: deque[PenEvent] = deque()
+        self._heard = False
         signature = ct.WINFUNCTYPE(  # type: ignore[attr-defined]
             ct.c_ssize_t, ct.c_void_p, ct.c_uint, ct.c_size_t, ct.c_ssize_t
         )
@@ -112,6 +113,7 @@ class WindowsPointer:
                 pen=True,
             )
             self._queue.append(event)
+        self._heard = True
         self._wake()
 
     def events(self) -> list[PenEvent]:
@@ -119,6 +121,10 @@ class WindowsPointer:
         out = list(self._queue)
         self._queue.clear()
         return out
+
+    def tablets(self) -> list[str]:
+        """Returns the name of what pens were heard by, once one was: the system tells no names of pens."""
+        return [self.name] if self._heard else []
 
     def close(self) -> None:
         """Gives the window its own procedure back."""

@@ -360,8 +360,8 @@ class XInput2Pointer:
         return out
 
     def tablets(self) -> list[str]:
-        """Returns the names of the pens seen."""
-        return [device.name for device in self._devices.values() if device.pen]
+        """Returns the names of the pens that are there, each once."""
+        return list(dict.fromkeys(device.name for device in self._devices.values() if device.pen))
 
     def close(self) -> None:
         """Ends the thread, which closes the connection; before the window is destroyed."""

@@ -99,6 +99,7 @@ class Dialogs:
         if self._open is None:
             desk.asked.shown = ""
             desk.adjusting.leave(desk.post)
+            desk.trial.leave()
             if desk.known.wearing is not None:
                 desk.post(StopWearing())
 

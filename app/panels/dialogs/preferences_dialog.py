@@ -16,12 +16,14 @@ from app.language import said
 from app.language.words import known_languages
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
+from app.panels.pens.pen_tester import draw_tester
 from app.theme.looks import LOOKS
 from engine.keeping.preferences import Preferences, preferences_file
 
 _WIDE, _TALL = 30.0, 22.0  # ems of the page
 _PAGES = (
     ("pen", "Pen", "How pens are felt, with a place to try it"),
+    ("tester", "Tester", "What the pen tells: pressure, tilt, buttons, how often and how evenly"),
     ("display", "Display", "Colours of the window, and how large all beside the canvas is"),
     ("memory", "Memory", "What paintings may take"),
     ("files", "Files", "Earlier versions and the bin"),
@@ -60,7 +62,10 @@ class PreferencesDialog:
         imgui.spacing()
         tall = min(_TALL * em, imgui.get_main_viewport().work_size.y - 9 * em)
         imgui.begin_child("page", ImVec2(_WIDE * em, tall))
-        {"pen": self._pen, "display": _display, "memory": _memory, "files": _files}[self._page](desk)
+        if self._page != "tester":
+            desk.trial.leave()
+        pages = {"pen": self._pen, "tester": draw_tester, "display": _display, "memory": _memory, "files": _files}
+        pages[self._page](desk)
         imgui.end_child()
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             keep_preferences(desk, desk.preferred.now)
@@ -120,6 +125,7 @@ class PreferencesDialog:
 
 _OF_PAGES = {
     "pen": ("curve", "constant", "ignore_touch"),
+    "tester": ("driver",),
     "display": ("look", "scale", "font_size", "profile", "proof", "language"),
     "memory": ("megabytes",),
     "files": ("versions", "gigabytes", "part_of_free"),

@@ -1,0 +1,1 @@
+"""What pens tell, seen while one tries them."""
