@@ -187,7 +187,7 @@ class Window:
 
     def connect(self, start: Start) -> None:
         """From now on pens are heard, and requests go to the engine's thread, which `start` begins."""
-        self.pointers.hear_pens()
+        self.pointers.hear_pens(self.desk.preferred.now.driver)
         shelf, previews = Shelf(glfw.post_empty_event), Previews(glfw.post_empty_event)
         self.desk.thumbnails = shelf.ask
         self._files = files = Files(glfw.post_empty_event)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -14,10 +15,16 @@ if TYPE_CHECKING:
     from app.input.key_times import KeyTimes
 
 
-def pen_source(window: Any) -> PenSource | None:
-    """Returns a source that knows pens; None where there is none, then GLFW's mouse stays."""
+def pen_source(window: Any, driver: str) -> PenSource | None:
+    """Returns a source that knows pens; None where there is none, then GLFW's mouse stays.  `driver`: on Windows "ink"
+    or "wintab", in whose place Ink is used where a tablet has no such driver."""
     try:
         if sys.platform == "win32":
+            if driver == "wintab":
+                with contextlib.suppress(OSError, AttributeError):
+                    from app.input.wintab import WintabPointer
+
+                    return WintabPointer(glfw.get_win32_window(window), glfw.post_empty_event)
             from app.input.windows import WindowsPointer
 
             return WindowsPointer(glfw.get_win32_window(window), glfw.post_empty_event)

@@ -56,7 +56,12 @@ class PointerSource(Protocol):
 
 
 class PenSource(PointerSource, Protocol):
-    """One that hears pens."""
+    """One that hears pens.  `near`: a pen moves the system's mouse too, whose events are not to count."""
+
+    @property
+    def near(self) -> bool:
+        """Tells whether it does now."""
+        ...
 
     def tablets(self) -> list[str]:
         """Returns the names of the pens that are there, as far as it knows them."""

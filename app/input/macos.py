@@ -5,21 +5,23 @@ Untested: written from Apple's documentation of NSEvent, never run.  A mouse kee
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 from typing import Any
 
 import glfw
 
-from app.input.events import LEFT, PenEvent
+from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
+from app.input.pen_queue import PenQueue
 
-_DOWN, _UP, _MOVED, _DRAGGED = 1, 2, 5, 6
-_KIND = {_DOWN: "down", _UP: "up", _MOVED: "move", _DRAGGED: "move"}
-_TABLET_SUBTYPE = 1
-_MASK = sum(1 << kind for kind in _KIND)
+_KIND = {1: "down", 2: "up", 3: "down", 4: "up", 5: "move", 6: "move", 7: "move", 25: "down", 26: "up", 27: "move"}
+_BUTTON = {1: LEFT, 2: LEFT, 3: RIGHT, 4: RIGHT, 25: MIDDLE, 26: MIDDLE}  # by NSEventType
+_POINT, _PROXIMITY = 23, 24  # NSEventTypeTabletPoint, NSEventTypeTabletProximity
+_TABLET_SUBTYPE, _PROXIMITY_SUBTYPE = 1, 2
+_ERASER = 3  # NSPointingDeviceTypeEraser
+_MASK = sum(1 << kind for kind in (*_KIND, _POINT, _PROXIMITY))
 
 
-class MacPointer:
+class MacPointer(PenQueue):
     """Takes tablet events from the application's queue; all others pass on to GLFW."""
 
     name = "pen (macOS)"
@@ -27,14 +29,17 @@ class MacPointer:
     def __init__(self, window: Any, wake: Callable[[], None]) -> None:
         import AppKit  # type: ignore[import-not-found]  # ImportError: no pens, the mouse stays
 
-        self._kit, self._window, self._wake = AppKit, window, wake
-        self._queue: deque[PenEvent] = deque()
-        self._heard = False
+        super().__init__(wake)
+        self._kit, self._window, self._eraser = AppKit, window, False
         self._monitor = AppKit.NSEvent.addLocalMonitorForEventsMatchingMask_handler_(_MASK, self._take)
 
     def _take(self, event: Any) -> Any:
-        kind = _KIND.get(event.type())
-        if kind is None or event.subtype() != _TABLET_SUBTYPE:
+        told = event.type()
+        if told == _PROXIMITY or (told in _KIND and event.subtype() == _PROXIMITY_SUBTYPE):
+            self._eraser = bool(event.isEnteringProximity()) and event.pointingDeviceType() == _ERASER
+            return event
+        kind = "move" if told == _POINT else _KIND.get(told)
+        if kind is None or (told != _POINT and event.subtype() != _TABLET_SUBTYPE):
             return event
         at, tilt = event.locationInWindow(), event.tilt()
         width, height = glfw.get_window_size(self._window)
@@ -48,23 +53,12 @@ class MacPointer:
             tilt_y=float(tilt.y) * -90,
             rotation=float(event.rotation()),
             time=float(event.timestamp()),
-            button=0 if kind == "move" else LEFT,
+            button=0 if kind == "move" else _BUTTON[told],
+            eraser=self._eraser,
             pen=True,
         )
-        self._queue.append(found)
-        self._heard = True
-        self._wake()
+        self.hear(found)
         return None
-
-    def events(self) -> list[PenEvent]:
-        """Gives what came since the last call, in order."""
-        out = list(self._queue)
-        self._queue.clear()
-        return out
-
-    def tablets(self) -> list[str]:
-        """Returns the name of what pens were heard by, once one was: pens are known by their events."""
-        return [self.name] if self._heard else []
 
     def close(self) -> None:
         """Stops listening."""

@@ -24,9 +24,9 @@ class Pointers:
         self._keys: KeyTimes | None = None
         self._later: list[PenEvent] = []  # what came after a key that was told
 
-    def hear_pens(self) -> None:
-        """From now on pens are heard."""
-        self._pen = pen_source(self._window)
+    def hear_pens(self, driver: str = "ink") -> None:
+        """From now on pens are heard, where a system has several ways by that `driver`."""
+        self._pen = pen_source(self._window, driver)
         self._keys = key_times() if self._pen is not None else None
 
     def events(self) -> list[PenEvent]:
@@ -35,7 +35,7 @@ class Pointers:
         What GLFW tells comes first: where pens are heard, X tells it nothing any more but what happened before.
         """
         found, self._later = [*self._later, *(self._pen.events() if self._pen is not None else [])], []
-        return [*self.mouse.events(), *found]
+        return [*self._moused(), *found]
 
     def events_before(self, scancode: int) -> list[PenEvent]:
         """Returns what came since the last call and before the key that GLFW tells of now; all that came, where it is
@@ -43,10 +43,15 @@ class Pointers:
         time = self._keys.of(scancode) if self._keys is not None else None
         if time is None:
             return self.events()
-        mouse, found = self.mouse.events(), [*self._later, *(self._pen.events() if self._pen is not None else [])]
+        mouse, found = self._moused(), [*self._later, *(self._pen.events() if self._pen is not None else [])]
         first = next((i for i, event in enumerate(found) if after(event, time)), len(found))
         self._later = found[first:]
         return [*mouse, *found[:first]]
+
+    def _moused(self) -> list[PenEvent]:
+        """Returns what the mouse did, where no pen moves it."""
+        events = self.mouse.events()
+        return [] if self._pen is not None and self._pen.near else events
 
     def heard(self) -> tuple[str, tuple[str, ...]]:
         """Returns how pens are heard, "" where they are not, and the names of those that are there."""

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import ctypes as ct
 import time
-from collections import deque
 from collections.abc import Callable
 from typing import Any
 
 from app.input.events import LEFT, PenEvent
+from app.input.pen_queue import PenQueue
 
 _UPDATE, _DOWN, _UP = 0x0245, 0x0246, 0x0247
 _KIND = {_UPDATE: "move", _DOWN: "down", _UP: "up"}
@@ -60,16 +60,15 @@ class _PenInfo(ct.Structure):
     )
 
 
-class WindowsPointer:
+class WindowsPointer(PenQueue):
     """Subclasses the window's procedure; pens become PenEvents, other messages go on to GLFW."""
 
-    name = "pen (Windows)"
+    name = "pen (Windows Ink)"
 
     def __init__(self, window: Any, wake: Callable[[], None]) -> None:
+        super().__init__(wake)
         self._user: Any = ct.WinDLL("user32")  # type: ignore[attr-defined]
-        self._window, self._wake = window, wake
-        self._queue: deque[PenEvent] = deque()
-        self._heard = False
+        self._window = window
         signature = ct.WINFUNCTYPE(  # type: ignore[attr-defined]
             ct.c_ssize_t, ct.c_void_p, ct.c_uint, ct.c_size_t, ct.c_ssize_t
         )
@@ -112,19 +111,7 @@ class WindowsPointer:
                 eraser=bool(info.penFlags & _ERASER_FLAGS),
                 pen=True,
             )
-            self._queue.append(event)
-        self._heard = True
-        self._wake()
-
-    def events(self) -> list[PenEvent]:
-        """Gives what came since the last call, in order."""
-        out = list(self._queue)
-        self._queue.clear()
-        return out
-
-    def tablets(self) -> list[str]:
-        """Returns the name of what pens were heard by, once one was: the system tells no names of pens."""
-        return [self.name] if self._heard else []
+            self.hear(event)
 
     def close(self) -> None:
         """Gives the window its own procedure back."""

@@ -224,6 +224,7 @@ class XInput2Pointer:
     """The stream of a window.  `wake` is called from the waiting thread when events have come."""
 
     name = "pen and mouse (XInput 2)"
+    near = False
 
     def __init__(self, window: int, wake: Callable[[], None], display: str | None = None) -> None:
         try:

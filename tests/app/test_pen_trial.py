@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.desk.preferring.pen_trial import PenTrial, measured
+from app.desk.preferring.pen_trial import PenTrial, motion_measured
 from app.input.events import PenEvent
 
 
@@ -18,7 +18,7 @@ def tried(places, step=0.005, start=0.0):
 
 @given(st.floats(0.001, 0.05), st.floats(-9, 9), st.floats(-9, 9))
 def test_an_even_straight_motion_has_its_rate_and_no_jitter(step, dx, dy):
-    rate, uneven, jitter = measured(tried([(n * dx, n * dy) for n in range(40)], step).reports)
+    rate, uneven, jitter = motion_measured(tried([(n * dx, n * dy) for n in range(40)], step).reports)
     assert rate == pytest.approx(1 / step, rel=1e-6)
     assert uneven == pytest.approx(0, abs=1e-6)
     assert jitter == pytest.approx(0, abs=1e-6)
@@ -26,12 +26,12 @@ def test_an_even_straight_motion_has_its_rate_and_no_jitter(step, dx, dy):
 
 def test_jitter_is_the_deviation_of_a_place_and_an_earlier_motion_does_not_count():
     trial = tried([(n, 1.0 if n % 2 else -1.0) for n in range(100)])
-    assert measured(trial.reports).jitter == pytest.approx(2 / 3**0.5)  # its worst: each is off the other way
+    assert motion_measured(trial.reports).jitter == pytest.approx(2 / 3**0.5)  # its worst: each is off the other way
     for n in range(9):
         event = PenEvent("move", n, 0.0, 0.5, time=9.0 + n * 0.01, pen=True)
         trial.take(event, event)
-    assert measured(trial.reports).jitter == 0
-    assert measured(list(trial.reports)[:3]) is None
+    assert motion_measured(trial.reports).jitter == 0
+    assert motion_measured(list(trial.reports)[:3]) is None
 
 
 def test_buttons_are_told_of_a_mouse_too_and_nothing_while_it_is_closed():

@@ -10,6 +10,7 @@ class Told:
     """In place of a source: what it tells is put into it."""
 
     name = "told"
+    near = False
 
     def __init__(self, *x):
         self.waiting = [PenEvent("move", float(at), 0.0) for at in x]
@@ -22,7 +23,7 @@ class Told:
 def test_what_the_mouse_did_before_pens_were_heard_comes_before_what_they_tell(monkeypatch):
     mouse, pens = Told(1, 2), Told(3, 4)
     monkeypatch.setattr(pointers, "GlfwPointer", lambda window: mouse)
-    monkeypatch.setattr(pointers, "pen_source", lambda window: pens)
+    monkeypatch.setattr(pointers, "pen_source", lambda window, driver: pens)
     monkeypatch.setattr(pointers, "key_times", lambda: None)
     found = pointers.Pointers(None)
     found.hear_pens()
@@ -37,7 +38,7 @@ def test_a_key_parts_what_the_pointer_did_before_it_from_what_it_did_after(monke
     pens = Told()
     pens.waiting = [PenEvent("move", float(x), 0.0, time=((begin + x) % 2**32) / 1000) for x in range(6)]
     monkeypatch.setattr(pointers, "GlfwPointer", lambda window: Told())
-    monkeypatch.setattr(pointers, "pen_source", lambda window: pens)
+    monkeypatch.setattr(pointers, "pen_source", lambda window, driver: pens)
     monkeypatch.setattr(pointers, "key_times", lambda: SimpleNamespace(of=lambda code: next(times)))
     found = pointers.Pointers(None)
     found.hear_pens()

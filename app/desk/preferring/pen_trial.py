@@ -73,7 +73,7 @@ class PenTrial:
         return f"Pen found: {', '.join(came)}" if came else f"Pen gone: {', '.join(gone)}" if gone else ""
 
 
-def measured(reports: Sequence[Report]) -> Measured | None:
+def motion_measured(reports: Sequence[Report]) -> Measured | None:
     """Returns what is measured of the last motion; None where there are too few reports."""
     last: list[Report] = []
     for report in reversed(reports):

@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.desk.desk import Desk
-from app.desk.preferring.pen_trial import SECONDS, PenTrial, Report, measured
+from app.desk.preferring.pen_trial import SECONDS, PenTrial, Report, motion_measured
 from app.desk.preferring.preferring import prefer
 from app.language import said
 from app.panels.controls import widgets as w
@@ -100,7 +100,7 @@ def _dial(last: Report | None, side: float) -> None:
 
 def _numbers(trial: PenTrial, last: Report | None) -> None:
     """Tells the last report, and what is measured of the last motion."""
-    em, found = imgui.get_font_size(), measured(trial.reports)
+    em, found = imgui.get_font_size(), motion_measured(trial.reports)
     turned = last.event.rotation if last is not None else None
     rows = (
         ("Pressed", f"{last.pressed:.3f}" if last else "", "As the pen tells it, 0 to 1"),
