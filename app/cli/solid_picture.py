@@ -47,6 +47,8 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", type=size, metavar="WxH", help="pixels of a picture (default 1280x800)")
     wraps = "wrap SOLID, a picture that tiles, around the object without a seam, in place of carving"
     parser.add_argument("--map", action="store_true", help=wraps)
+    drawn = "draw a picture out into the solid, under a signal along it, in place of growing one"
+    parser.add_argument("--drawn", action="store_true", help=drawn)
     parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another solid (default 0)")
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a slider of the material; may be repeated"
@@ -186,11 +188,12 @@ def _values(name: str, given: list[str]) -> dict[str, float]:
 
 def _grown(path: str, options: argparse.Namespace) -> np.ndarray:
     """The cube that grows from an example: float32 (z, y, x, 3)."""
-    from engine.solids.cube_growing import growing_cube
+    from engine.solids.cube_growing import drawn_cube, growing_cube
 
+    grow = drawn_cube if options.drawn else growing_cube
     example, cube = match_command.read(path, options.out), None
     with match_command.threads() as pool, Progress("growing", 100) as bar:
-        for step in growing_cube(example.planes, options.seed, threads=pool):
+        for step in grow(example.planes, options.seed, threads=pool):
             bar.part(step.done)
             cube = step.cube
     assert cube is not None

@@ -13,7 +13,8 @@ from app.desk.presets import stem_of
 from app.desk.solids.solid_state import Growth
 from app.desk.solids.working import for_a_while
 
-CUBES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".npy")
+DRAWABLE = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+CUBES = (*DRAWABLE, ".npy")
 _ENDING, _SLICE = ".png", "slice-"
 
 
@@ -74,20 +75,20 @@ class GrowCube(FileWork):
         desk.say(fault, bad=True)
 
 
-def bring_cube(desk: Desk, path: Path) -> None:
-    """A cube that a file holds, or one that grows from a picture, becomes the solid."""
+def bring_cube(desk: Desk, path: Path, drawn: bool = False) -> None:
+    """A cube that a file holds, or one that grows from a picture, becomes the solid; `drawn`: or is drawn out of it."""
     growth = Growth()
     desk.solid.growing = growth
-    desk.work(GrowCube(path, growth, _steps(path, growth)))
+    desk.work(GrowCube(path, growth, _steps(path, growth, drawn)))
 
 
-def _steps(path: Path, growth: Growth) -> Iterator[Path | None]:
+def _steps(path: Path, growth: Growth, drawn: bool) -> Iterator[Path | None]:
     """Yields None while it is being made; then where it is kept."""
     from engine.makers.heeger_bergen import part_looked_at
     from engine.makers.lewis import flattened
     from engine.painting.capture import read_picture
     from engine.solids.cube_files import is_column, read_cube, write_cube
-    from engine.solids.cube_growing import as_fine_as_voxels, growing_cube
+    from engine.solids.cube_growing import as_fine_as_voxels, drawn_cube, growing_cube
 
     cube = None
     if path.suffix.lower() == ".npy" or (path.name.startswith(_SLICE) and path.suffix.lower() == _ENDING):
@@ -97,7 +98,7 @@ def _steps(path: Path, growth: Growth) -> Iterator[Path | None]:
     else:
         example = part_looked_at(as_fine_as_voxels(flattened(read_picture(str(path), None))))
         yield None
-        for step in growing_cube(example, 0):
+        for step in (drawn_cube if drawn else growing_cube)(example, 0):
             growth.done, cube = step
             yield None
     assert cube is not None

@@ -259,6 +259,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "example picture": file_browser.choosing_own,
     "solid mesh": file_browser.choosing_mesh,
     "solid cube": file_browser.choosing_cube,
+    "drawn cube": file_browser.choosing_drawn_cube,
     "bring from": file_browser.choosing_to_bring,
     "bring in": BringIn,
     "texture doctor": DoctorDialog,

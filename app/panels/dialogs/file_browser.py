@@ -29,7 +29,7 @@ from app.desk.presets import stem_of
 from app.desk.previews import FileRow
 from app.desk.proofing.proof_work import PROFILES
 from app.desk.sharing.preset_work import BRUSH, BRUSHES, SharePreset, bring_preset
-from app.desk.solids.cube_work import CUBES, bring_cube
+from app.desk.solids.cube_work import CUBES, DRAWABLE, bring_cube
 from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
@@ -273,6 +273,11 @@ def choosing_mesh(desk: Desk) -> SystemDialog | Browser:
 def choosing_cube(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture from which a solid grows, or a file that holds a cube."""
     return _chooser(desk, "A solid like a picture, or a cube", CUBES, bring_cube)
+
+
+def choosing_drawn_cube(desk: Desk) -> SystemDialog | Browser:
+    """A picture that is drawn out into a solid."""
+    return _chooser(desk, "A solid drawn out of a picture", DRAWABLE, lambda d, path: bring_cube(d, path, drawn=True))
 
 
 def choosing_to_bring(desk: Desk) -> SystemDialog | Browser:

@@ -29,6 +29,8 @@ _DEGREES = 0.45  # for each pixel of a drag
 _SCALES = 0.1, 2.0
 _UNIT = 256  # pixels of the slice that is ink
 _OWN, _LONGEST = "", 24  # what asks for a mesh; letters of its name
+_DRAWN = "drawn"
+_ASKED = {_OWN: "solid cube", _DRAWN: "drawn cube"}  # dialogs, by what asks for them
 
 
 class SolidPanel(Panel):
@@ -162,10 +164,11 @@ class SolidPanel(Panel):
         if state.material not in MATERIALS and state.material not in dict(kept):
             kept.append((state.material, PurePath(state.material).stem[:_LONGEST]))
         shown = "Like a picture…" if state.material in MATERIALS else state.material
-        hint = "A solid that grows from a picture until every cut through it looks like that, or a cube from a file"
-        chosen = w.choice("cube", shown, [*kept, (_OWN, "From a picture or a cube…")], hint, wide)
-        if chosen == _OWN:
-            desk.asked.show("solid cube")
+        hint = "Grown from a picture until every cut looks like it, drawn out of one in layers, or a cube from a file"
+        asked = [(_OWN, "From a picture or a cube…"), (_DRAWN, "Drawn out of a picture…")]
+        chosen = w.choice("cube", shown, [*kept, *asked], hint, wide)
+        if chosen in _ASKED:
+            desk.asked.show(_ASKED[chosen])
         elif chosen:
             state.material = chosen
 

@@ -6,7 +6,7 @@ from PIL import Image
 
 from engine.files.fault import FileError
 from engine.solids.cube_files import is_column, read_cube, write_cube
-from engine.solids.cube_growing import as_fine_as_voxels, growing_cube
+from engine.solids.cube_growing import as_fine_as_voxels, drawn_cube, growing_cube
 
 VOXELS = np.random.default_rng(1).integers(0, 256, (8, 8, 8, 3)).astype(np.uint8)
 COLOURS = VOXELS.astype(np.float32) / np.float32(255.0)
@@ -54,3 +54,16 @@ def test_a_cube_grows_step_by_step_and_has_the_example_s_colours():
 def test_a_large_picture_is_made_as_small_as_a_cube_can_show():
     for size, small in (((3, 40, 33), (3, 20, 16)), ((1, 300, 64), (1, 75, 16)), ((3, 31, 90), (3, 31, 90))):
         assert as_fine_as_voxels(np.full(size, 0.25, np.float32), 8).shape == small
+
+
+def test_a_cube_is_drawn_out_of_a_picture_under_a_signal_along_it():
+    example = np.random.default_rng(1).uniform(0.2, 1.0, (3, 24, 24)).astype(np.float32)
+    *before, last = drawn_cube(example, 3, side=16)
+    assert [step.cube for step in before] == [None] * len(before)
+    cube = last.cube
+    light = cube[:, 5, 7, 0] / cube[0, 5, 7, 0]
+    assert np.ptp(light) > 0.1, "layers are seen"
+    assert cube == pytest.approx(cube[:1] * light[:, None, None, None], abs=1e-5), "every slice is the picture"
+    across = cube.max(axis=0)
+    assert across.mean(axis=(0, 1)) == pytest.approx(example.mean(axis=(1, 2)), abs=0.1)
+    assert np.abs(np.diff(across, axis=1, append=across[:, :1])).mean(axis=(0, 2))[-1] < 0.6, "it tiles"
