@@ -8,13 +8,14 @@ import numpy as np
 
 from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
 from engine.numeric.address import TILE
-from engine.numeric.kernel import Array, inner, kernel
+from engine.numeric.kernel import Array, inner, inner_uncounted, kernel
 
 _ZERO, _ONE, _TWO, _THREE = np.float32(0.0), np.float32(1.0), np.float32(2.0), np.float32(3.0)
 _HALF = np.float32(0.5)
+_FAINT = np.float32(1e-36)  # below any strength of a dab
 
 
-@inner
+@inner_uncounted
 def _locate_row(share: Array, first: int, last: int, dy: float, cx: float, place: Array, row: Array) -> None:
     """Writes where textures lie, float32 (2, 128), where at least half of what is there is the dab's."""
     for x in range(first, last):
@@ -52,31 +53,49 @@ def blend_one(planes: tuple[Array, Array, Array, Array], disc: Array, left: int,
     blend(planes, disc, left, top)
 
 
+@inner_uncounted
+def _lay_row(m: Array, across: Array, share: Array, down: np.float32, most: np.float32, rate: np.float32) -> None:
+    """Lays a row of a disc into the coverage, as `discs.lay` does; writes how much of the dab is in the mean."""
+    for i in range(m.shape[0]):
+        v = _ONE - max(_ZERO, min(_ONE, across[i] + down))
+        part = rate * (v * v * (_THREE - _TWO * v))
+        m[i] += max(_ZERO, most - m[i]) * part
+        share[i] = min(most * part / max(max(m[i], most * part), _FAINT), _ONE)
+
+
+@inner_uncounted
+def _blend_row(t: Array, share: Array, value: np.float32) -> None:
+    for i in range(t.shape[0]):
+        t[i] += (value - t[i]) * share[i]
+
+
+@inner_uncounted
+def _lay_one(
+    planes: tuple[Array, Array, Array, Array], disc: Array, left: int, top: int, scratch: tuple[Array, Array]
+) -> None:
+    coverage, _, tints, places = planes
+    across, share = scratch
+    cx, cy, outer, scale = disc[CX] - left, disc[CY] - top, disc[ROUT], disc[SCALE]
+    ceiling, rate, own = np.float32(disc[CEILING]), np.float32(disc[RATE]), disc.shape[0] - tints.shape[0]
+    for x in range(max(0, math.floor(cx - outer)), min(TILE, math.ceil(cx + outer) + 1)):
+        across[x] = np.float32((x + 0.5 - cx) * (x + 0.5 - cx) * scale)
+    for y in range(max(0, math.ceil(cy - outer - 0.5)), min(TILE, math.floor(cy + outer - 0.5) + 1)):
+        square = (y + 0.5 - cy) * (y + 0.5 - cy)
+        half = math.sqrt(max(0.0, outer * outer - square))
+        first, last = max(0, math.ceil(cx - half - 0.5)), min(TILE, math.floor(cx + half - 0.5) + 1)
+        if first >= last:
+            continue
+        down = np.float32((square - disc[RIN2]) * scale)
+        _lay_row(coverage[y, first:last], across[first:last], share[first:last], down, ceiling, rate)
+        for c in range(tints.shape[0]):
+            _blend_row(tints[c, y, first:last], share[first:last], np.float32(disc[own + c]))
+        if places.shape[0]:
+            _locate_row(share, first, last, y + 0.5 - cy, cx, disc[own - 6 : own], places[:, y])
+
+
 @kernel
 def lay_round(planes: tuple[Array, Array, Array, Array], discs: Array, which: Array, corner: tuple[int, int]) -> None:
     """Lays round discs, as `discs.lay` does, and their tints, one after the other."""
-    coverage, _, tints, places = planes
-    across, share = np.empty(TILE, np.float32), np.empty(TILE, np.float32)
+    scratch = np.empty(TILE, np.float32), np.empty(TILE, np.float32)
     for index in which:
-        disc = discs[index]
-        cx, cy, outer, scale = disc[CX] - corner[0], disc[CY] - corner[1], disc[ROUT], disc[SCALE]
-        ceiling, rate, own = np.float32(disc[CEILING]), np.float32(disc[RATE]), disc.shape[0] - tints.shape[0]
-        for x in range(max(0, math.floor(cx - outer)), min(TILE, math.ceil(cx + outer) + 1)):
-            across[x] = np.float32((x + 0.5 - cx) * (x + 0.5 - cx) * scale)
-        for y in range(max(0, math.ceil(cy - outer - 0.5)), min(TILE, math.floor(cy + outer - 0.5) + 1)):
-            square = (y + 0.5 - cy) * (y + 0.5 - cy)
-            half = math.sqrt(max(0.0, outer * outer - square))
-            first, last = max(0, math.ceil(cx - half - 0.5)), min(TILE, math.floor(cx + half - 0.5) + 1)
-            down, m = np.float32((square - disc[RIN2]) * scale), coverage[y]
-            for x in range(first, last):
-                v = _ONE - max(_ZERO, min(_ONE, across[x] + down))
-                part = rate * (v * v * (_THREE - _TWO * v))
-                m[x] += max(_ZERO, ceiling - m[x]) * part
-                k = ceiling * part
-                share[x] = min(k / max(m[x], k), _ONE) if k > _ZERO else _ZERO
-            for c in range(tints.shape[0]):
-                t, value = tints[c, y], np.float32(disc[own + c])
-                for x in range(first, last):
-                    t[x] += (value - t[x]) * share[x]
-            if places.shape[0]:
-                _locate_row(share, first, last, y + 0.5 - cy, cx, disc[own - 6 : own], places[:, y])
+        _lay_one(planes, discs[index], corner[0], corner[1], scratch)

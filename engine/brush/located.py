@@ -6,6 +6,7 @@ least half of it.  Along a stroke u grows with the way, and v is how far a pixel
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -16,10 +17,12 @@ from engine.brush.mask import StrokeMask
 from engine.brush.print_form import Print
 from engine.brush.tip import ways_of
 from engine.numeric.address import Rect, TileKey
+from engine.numeric.kernel import Array, Int, kernel
 
 _SIDE = 64  # px of a texture that are worked out at once
 _HALF = np.float32(0.5)
 
+_FEW = 64  # squares for which there is room at first
 _MEMO = 256  # squares kept: 4 MB for each channel
 
 
@@ -43,25 +46,56 @@ class Patches:
 def located(places: np.ndarray, fetch: Patches) -> np.ndarray:
     """Returns a texture as it is seen at places, float32 (2, h, w), with straight lines between its pixels: float32
     (n, h, w)."""
-    u, v = places[0] - _HALF, places[1] - _HALF
-    across, down = np.floor(u), np.floor(v)
-    right, below = (u - across).ravel(), (v - down).ravel()
-    x, y = across.astype(np.int64).ravel(), down.astype(np.int64).ravel()
-    squares = (y // _SIDE << 32) + x // _SIDE
-    order = np.argsort(squares, kind="stable")
-    starts = np.flatnonzero(np.diff(squares[order], prepend=squares[order[0]] - 1))
-    out: np.ndarray | None = None
-    for group in np.split(order, starts[1:]):
-        i, j = int(x[group[0]]) // _SIDE * _SIDE, int(y[group[0]]) // _SIDE * _SIDE
-        seen = fetch(Rect.at(i, j, _SIDE + 1, _SIDE + 1))
-        column, row, a, b = x[group] - i, y[group] - j, right[group], below[group]
-        upper = seen[:, row, column] + (seen[:, row, column + 1] - seen[:, row, column]) * a
-        lower = seen[:, row + 1, column] + (seen[:, row + 1, column + 1] - seen[:, row + 1, column]) * a
-        if out is None:
-            out = np.empty((len(seen), x.size), np.float32)
-        out[:, group] = upper + (lower - upper) * b
-    assert out is not None
-    return out.reshape(len(out), *u.shape)
+    codes, which = np.empty((_FEW, 2), np.int64), np.empty(places.shape[1:], np.int64)
+    count = _squares(places, codes, which)
+    if count > len(codes):
+        codes = np.empty((count, 2), np.int64)
+        _squares(places, codes, which)
+    seen = np.stack([fetch(Rect.at(x, y, _SIDE + 1, _SIDE + 1)) for x, y in codes[:count].tolist()])
+    out = np.empty((seen.shape[1], *which.shape), np.float32)
+    _sample(places, codes, which, seen, out)
+    return out
+
+
+@kernel
+def _squares(places: Array, codes: Array, which: Array) -> Int:
+    """Writes the corners of the squares in which places lie, (k, 2), and in which of these each does, as far as there
+    is room; returns how many there are."""
+    count, last = 0, 0
+    for i in range(which.shape[0]):
+        for j in range(which.shape[1]):
+            x = math.floor(places[0, i, j] - _HALF) // _SIDE * _SIDE
+            y = math.floor(places[1, i, j] - _HALF) // _SIDE * _SIDE
+            if last < count and codes[last, 0] == x and codes[last, 1] == y:
+                which[i, j] = last
+                continue
+            last = 0
+            while last < min(count, codes.shape[0]) and not (codes[last, 0] == x and codes[last, 1] == y):
+                last += 1
+            if last >= codes.shape[0]:
+                count, last = count + 1, 0
+                continue
+            if last == count:
+                codes[count, 0], codes[count, 1] = x, y
+                count += 1
+            which[i, j] = last
+    return count
+
+
+@kernel
+def _sample(places: Array, codes: Array, which: Array, seen: Array, out: Array) -> None:
+    for i in range(which.shape[0]):
+        for j in range(which.shape[1]):
+            k = which[i, j]
+            u, v = places[0, i, j] - _HALF, places[1, i, j] - _HALF
+            across, down = math.floor(u), math.floor(v)
+            a, b = np.float32(u - across), np.float32(v - down)
+            x, y = across - codes[k, 0], down - codes[k, 1]
+            for c in range(out.shape[0]):
+                plane = seen[k, c]
+                upper = plane[y, x] + (plane[y, x + 1] - plane[y, x]) * a
+                lower = plane[y + 1, x] + (plane[y + 1, x + 1] - plane[y + 1, x]) * a
+                out[c, i, j] = upper + (lower - upper) * b
 
 
 class PlacedMask(StrokeMask):

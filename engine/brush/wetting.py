@@ -76,6 +76,8 @@ class Wetting:
         buckets = int(self._manner.plan[1]) * len(self._manner.ways)
         self._going = np.zeros((buckets, CARRIED + vector)), np.zeros((len(self._manner.ways), TIP))
         self._scratch = np.empty(vector), np.empty(vector), np.empty(vector - 1)
+        self._met = np.empty(_FEW, np.int64)
+        self._codes, self._slots = np.empty(0, np.int64), np.empty(0, np.int64)
         self._known: dict[int, int] = {}
         self._slab = np.empty((0, SIDE, SIDE, 2 * vector + 2), np.float32)
         self._laid = 0
@@ -92,25 +94,27 @@ class Wetting:
         first = dabs.shape[1] - self._tints
         load = dabs.copy()
         load[:, first : first + 3] = self._ink.mean_under(dabs[:, first:])
-        codes = self._met(load)
-        slots = np.array([self._known[code] for code in codes.tolist()], np.int64)
+        self._meet(load)
         out = np.zeros((len(dabs), self._tints + WET_COLUMNS))
-        soak(load, self._laid, self._manner, self._going, Water(codes, slots, self._slab), self._scratch, out)
+        soak(
+            load, self._laid, self._manner, self._going, Water(self._codes, self._slots, self._slab), self._scratch, out
+        )
         self._laid += len(dabs)
         return np.concatenate([dabs[:, :first], out], axis=1)
 
-    def _met(self, dabs: np.ndarray) -> np.ndarray:
-        """Returns the codes of the squares that dabs meet, sorted; all of them are known then."""
-        codes = np.empty(4 * len(dabs) + 64, np.int64)
-        count = squares_met(dabs, self._manner, codes)
-        if count > len(codes):
-            codes = np.empty(count, np.int64)
-            squares_met(dabs, self._manner, codes)
-        met = np.unique(codes[:count])
-        new = [code for code in met.tolist() if code not in self._known]
-        if new:
-            self._look_at(new)
-        return met
+    def _meet(self, dabs: np.ndarray) -> None:
+        """Looks at all squares that dabs meet, as far as they are not known."""
+        count = squares_met(dabs, self._manner, self._met)
+        if count > len(self._met):
+            self._met = np.empty(2 * count, np.int64)
+            squares_met(dabs, self._manner, self._met)
+        met = self._met[:count]
+        at = np.searchsorted(self._codes, met)
+        new = met[self._codes.take(at, mode="clip") != met] if len(self._codes) else met
+        if len(new):
+            self._look_at(np.unique(new).tolist())
+            self._codes = np.array(sorted(self._known), np.int64)
+            self._slots = np.array([self._known[code] for code in self._codes.tolist()], np.int64)
 
     def _look_at(self, codes: list[int]) -> None:
         total = len(self._known) + len(codes)

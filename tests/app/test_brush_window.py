@@ -42,6 +42,8 @@ def test_a_brush_is_saved_under_a_name_and_there_again(program, tmp_path):
     app = program()
     app.settled()
     app.keys(*["bracketright"] * 5)
+    app.click("On stroke")
+    app.click("Wet paint")
     app.click("save brush")
     app.box("name")
     app.fill("My pen")
@@ -54,6 +56,8 @@ def test_a_brush_is_saved_under_a_name_and_there_again(program, tmp_path):
     kept = json.loads(path.read_text("utf-8"))
     assert kept["name"] == "My pen"
     assert kept["brush"]["radius"] > 3
+    assert kept["brush"]["fixed"] == "stroke"
+    assert kept["brush"]["wet"]["mixing"] == "pigment"
 
 
 def blueness(picture):

@@ -179,12 +179,12 @@ def test_a_photograph_that_is_dropped_anywhere_loses_no_frame(program, photograp
 def test_another_programs_brush_dropped_on_the_canvas_is_painted_with(program, tmp_path):
     (tmp_path / "Soft reed.myb").write_text(
         '{"version": 3, "settings": {"radius_logarithmic": {"base_value": 3.5, "inputs": {}},'
-        ' "opaque": {"base_value": 1.0, "inputs": {}}, "smudge": {"base_value": 0.5, "inputs": {}}}}'
+        ' "opaque": {"base_value": 1.0, "inputs": {}}, "slow_tracking": {"base_value": 2.0, "inputs": {}}}}'
     )
     app = program()
     app.settled()
     Drag(app.display, window_of(app), tmp_path / "Soft reed.myb").drop(*app.at("canvas"))
-    app.box("Brought in the brush “Soft reed”, without smudging")
+    app.box("Brought in the brush “Soft reed”, without slow tracking")
     assert (app.folder / "config" / "inkfall" / "brushes" / "soft-reed.json").is_file()
     before = app.canvas()
     app.stroke((500, 300), (600, 310), (700, 320))

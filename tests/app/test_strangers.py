@@ -98,11 +98,14 @@ def test_many_brushes_of_a_file_lie_in_a_group_of_its_name_and_can_be_shared(des
 
 
 def test_what_was_left_out_is_told_in_a_line_that_stays(desk, tmp_path):
-    settings = {"smudge": {"base_value": 0.5, "inputs": {}}, "radius_logarithmic": {"base_value": 1.0, "inputs": {}}}
+    settings = {
+        "slow_tracking": {"base_value": 2.0, "inputs": {}},
+        "radius_logarithmic": {"base_value": 1.0, "inputs": {}},
+    }
     (tmp_path / "Blend.myb").write_text(json.dumps({"version": 3, "settings": settings}))
     bring_preset(desk, tmp_path / "Blend.myb")
     (notice,) = desk.notices.rows
-    assert (notice.text, notice.bad) == ("Brought in the brush “Blend”, without smudging", False)
+    assert (notice.text, notice.bad) == ("Brought in the brush “Blend”, without slow tracking", False)
     assert desk.hand.brush.radius == pytest.approx(np.e)
     (tmp_path / "l.gbr").write_bytes(gbr(L_SHAPE, "Ell"))
     bring_preset(desk, tmp_path / "l.gbr")

@@ -37,11 +37,17 @@ class WetSection:
             imgui.begin_disabled(not on)
             now = _settings(now)
             imgui.end_disabled()
+            if on and held is None and imgui.get_cursor_screen_pos().y > _bottom():
+                imgui.set_scroll_here_y(1.0)
         if on:
             self._kept = now
         if (now if on else None) != held:
             desk.hand.change(wet=now if on else None)
         return imgui.get_cursor_pos().y - top
+
+
+def _bottom() -> float:
+    return imgui.get_window_pos().y + imgui.get_window_height()
 
 
 def _settings(wet: Wet) -> Wet:

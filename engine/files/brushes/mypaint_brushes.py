@@ -44,6 +44,7 @@ _USUAL = {  # base values where nothing is said; 0 of all others
     "speed1_gamma": 4.0,
     "speed2_gamma": 4.0,
     "stroke_duration_logarithmic": 4.0,
+    "smudge_length": 0.5,
 }
 # Settings of which nothing is told: they are read where they count, or change little.
 _SILENT: tuple[str, ...] = (
@@ -58,7 +59,7 @@ _SILENT: tuple[str, ...] = (
 )
 _SILENT += ("opaque_linearize", "offset_by_speed_slowness", "slow_tracking_per_dab", "pressure_gain_log")
 _SILENT += ("elliptical_dab_angle", "gridmap", "offset_multiplier", "paint_mode", "posterize_num", "snap_to_pixel")
-_WORDS = {"dabs_per_second": "dabs while the pen rests", "smudge": "smudging", "eraser": "erasing by parts"}
+_WORDS = {"dabs_per_second": "dabs while the pen rests", "eraser": "erasing by parts"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,10 +184,24 @@ def _brush(told: _Settings, file: str) -> FoundBrush:
         "dynamics": {target: curves for target, curves in dynamics.items() if curves},
         "colour": _colour(told),
     }
+    wet = _wet(told, spacing)
+    if wet is not None:
+        settings["wet"] = wet
     if told.base("eraser") >= 0.5:
         settings["mode"] = "erase"
     left = [*told.left(), *(["erasing by parts"] if told.curves("eraser") else [])]
+    left += ["what smudging follows"] if told.curves("smudge") else []
     return FoundBrush(called("", file), settings, None, tuple(left), told.base("restore_color") >= 0.5)
+
+
+def _wet(told: _Settings, spacing: float) -> ByName | None:
+    """Returns how the brush takes paint along; there a part of it is left after each dab, here after each radius."""
+    amount = _part(told.base("smudge") + resting(told.curves("smudge")))
+    if amount < 0.01:
+        return None
+    kept = math.pow(_part(told.base("smudge_length")), 1.0 / spacing)
+    mixing = "pigment" if told.base("paint_mode") >= 0.5 else "light"
+    return {"amount": round(amount, 3), "length": round(kept, 3), "mixing": mixing}
 
 
 def _flow(told: _Settings) -> tuple[float, dict[str, AddedCurve], float]:

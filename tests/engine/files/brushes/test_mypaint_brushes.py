@@ -96,5 +96,14 @@ def test_colours_that_change_by_chance_do_so_here():
 def test_what_is_left_out_is_told_in_words():
     brush = read(smudge=0.5, slow_tracking=2.0, hardness=(0.5, {"attack_angle": [[0, 0], [1, 1]]}), eraser=1.0)
     assert brush.settings["mode"] == "erase"
-    assert brush.left == ("slow tracking", "smudging", "what follows attack angle")
+    assert brush.left == ("slow tracking", "what follows attack angle")
     assert read(dabs_per_second=80.0).left == ("dabs while the pen rests",)
+
+
+def test_what_it_smudges_is_taken_up_here():
+    told = read(smudge=0.5, smudge_length=0.7, paint_mode=1.0, dabs_per_actual_radius=2.0).settings["wet"]
+    assert told == {"amount": 0.5, "length": pytest.approx(0.49), "mixing": "pigment"}
+    following = read(smudge=(0.2, {"pressure": [[0, 0], [1, 0.5]]}))
+    assert following.settings["wet"]["mixing"] == "light"
+    assert "what smudging follows" in following.left
+    assert "wet" not in read(hardness=0.5).settings
