@@ -44,6 +44,7 @@ BENCHES = {
     "place": "placements at 1920 x 1080 beside their source, and pictures that contain themselves",
     "raster": "a soft dab of each raster-op through texture into pixels, against copying its bytes",
     "spectral": "a painted spectrum to its preview, and the endless field of sparse convolution",
+    "written": "ten lines of a written texture with two noises of six octaves; from a text to its picture",
     "matching": "a texture matched to an example, 256 to 256 and to 512, against peers and against its transforms",
     "structured": "textures with a structure: their yardstick, what is copied, seconds at 256 x 256",
     "masks": "masks found by themselves on twenty composites: overlap, error of alpha, seconds of a correction",

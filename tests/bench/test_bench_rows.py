@@ -17,6 +17,7 @@ QUICK = (
     "dab",
     "raster",
     "spectral",
+    "written",
     "matching",
     "learnt",
     "example",

@@ -35,6 +35,7 @@ from engine.studio.filing import documents
 from engine.studio.past.past_records import AskHere
 from engine.studio.studio import Studio
 from engine.studio.textures.swatches import painted
+from engine.texture import table
 from engine.texture.planes import Planes
 
 _LEVELS = (0, -1, 1, -3, 2)  # that are looked at: the stroke's first
@@ -126,11 +127,19 @@ def filed() -> None:
         open_image(png)
 
 
+def draw_written() -> None:
+    """Draws a written texture: one kernel is there for all of them."""
+    made = table.instance(table.EXPRESSION, {"text": "noise(x, y)"}, 0, 0)
+    made.appearance(0, Rect(0, 0, 1, 1))
+    made.bandpass(1, Rect(0, 0, 2, 2))
+
+
 _PLAIN = {
     "commit": stamped,
     "files": filed,
     "structure": with_structure.make_once,
     "learnt": learning.make_once,
+    "written": draw_written,
 }  # jobs without a brush
 
 

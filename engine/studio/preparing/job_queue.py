@@ -39,8 +39,8 @@ def job_of(swatch: Swatch) -> Job:
 
 
 _PLAIN = job_of(Swatch("", Brush(), (104, 44)))
-COMMIT, STRUCTURE, LEARNT_DETAIL, FILES = (
-    Job(json.dumps({"kind": kind})) for kind in ("commit", "structure", "learnt", "files")
+COMMIT, STRUCTURE, LEARNT_DETAIL, WRITTEN_TEXTURES, FILES = (
+    Job(json.dumps({"kind": kind})) for kind in ("commit", "structure", "learnt", "written", "files")
 )
 PLAIN_PAINT = (_PLAIN, COMMIT)  # what the first strokes of plain paint need
 _BEFORE_EXAMPLES = 3  # one in so many brushes comes before the first that grows an example
@@ -57,7 +57,7 @@ def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
     others = [swatch for swatch in listed if not swatch.brush.row.grows and swatch not in late]
     at = len(others) // _BEFORE_EXAMPLES
     ordered = (*others[:at], *grow[:1], *others[at:], *grow[1:])
-    jobs = (*map(job_of, ordered), LEARNT_DETAIL, STRUCTURE, *map(job_of, late), FILES)
+    jobs = (*map(job_of, ordered), WRITTEN_TEXTURES, LEARNT_DETAIL, STRUCTURE, *map(job_of, late), FILES)
     return tuple(dict.fromkeys(jobs))
 
 

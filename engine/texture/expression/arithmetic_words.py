@@ -253,7 +253,7 @@ def _smoothstep(weaver: Weaver, term: Term, env: Env) -> Value:
     return Value((smooth(weaver, t),), max(low.side, high.side, value.side, threshold_side(weaver, t)))
 
 
-def _wave(code: Code) -> Rule:
+def _wave(code: int) -> Rule:
     def rule(weaver: Weaver, term: Term, env: Env) -> Value:
         """The mean of a sine over the width w of a sample is sin(w / 2) / (w / 2) of it."""
         value = weaver.number(term.parts[0], env.point)
@@ -284,7 +284,7 @@ def _sincs(weaver: Weaver, node: int) -> float:
     return out * elementary.exp(-0.5 * weaver.spreads.of(node).lost_squared)
 
 
-def _plain(code: Code) -> Rule:
+def _plain(code: int) -> Rule:
     def rule(weaver: Weaver, term: Term, env: Env) -> Value:
         """A function without an integral of its own: by samples, where it is not the same everywhere."""
         values = [weaver.number(part, env.point) for part in term.parts]

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
 
-
-class Code(IntEnum):
-    """An operation; those up to SELECT are arithmetic of IEEE 754 and the same in Python."""
+class Code:
+    """Operations, as plain numbers: they are looked up by the thousand."""
 
     CONST = 0
     X = 1
@@ -42,7 +40,7 @@ class Code(IntEnum):
 
 
 # Nanoseconds a sample, about, on one core of 2024; of noise for each octave.
-COST = dict.fromkeys(Code, 0.5) | {
+COST = dict.fromkeys(range(Code.PICTURE + 1), 0.5) | {
     Code.CONST: 0.0, Code.X: 0.1, Code.Y: 0.1, Code.DIV: 1.0, Code.SQRT: 1.0, Code.SIN: 8.0, Code.COS: 8.0,
     Code.TAN: 10.0, Code.ATAN2: 15.0, Code.EXP: 8.0, Code.LOG: 12.0, Code.POW: 40.0, Code.NOISE: 7.0,
     Code.WHITE: 30.0, Code.CELLS: 150.0, Code.RAMP: 10.0, Code.RANDOM: 3.0, Code.PICTURE: 40.0,

@@ -1,4 +1,4 @@
-"""WrittenText textures as definitions and keys tell them, checked."""
+"""Written textures as definitions and keys tell them, checked."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_integer, is_within
 from engine.texture.expression.language import COST_MOST, read
 from engine.texture.expression.written import CHARACTERS_MOST, Adjustable, WrittenError, WrittenText, is_colour
-from engine.texture.expression.written_ink import Expression, woven_program
+from engine.texture.expression.written_ink import Expression, woven_line
 
 PERIOD = 64.0  # pixels, usually
 PERIOD_LEAST, PERIOD_MOST = 2.0**-10, 2.0**40
@@ -55,9 +55,9 @@ def expression_of_key(key: Sequence[object]) -> Expression:
 def check_woven(text: str, values: Values, seed: int = 0, period: float = PERIOD) -> None:
     """Weaves a text from near and far.  WrittenError if it cannot be, or is too dear."""
     for finer in (0, _NEAR):
-        made = woven_program(text, values, seed, finer, period)
-        if made.cost > COST_MOST:
-            told = f"{made.cost / 1000.0:.0f} microseconds a pixel"
+        cost = woven_line(text, values, seed, finer, period).cost
+        if cost > COST_MOST:
+            told = f"{cost / 1000.0:.0f} microseconds a pixel"
             raise WrittenError((1, 1), told, f"{COST_MOST / 1000.0:.0f} at most: fewer octaves, lines or samples")
 
 

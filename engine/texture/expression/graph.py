@@ -6,13 +6,13 @@ A node is a number: the place of its operation in a list, behind those of all th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Container, Iterable
 from dataclasses import dataclass
 
 from engine.numeric import elementary
 from engine.texture.expression.codes import COST, Code
 
-NODES_MOST = 6000  # operations of one texture
+NODES_MOST = 3000  # operations of one texture
 
 
 class TooLarge(ValueError):
@@ -23,7 +23,7 @@ class TooLarge(ValueError):
 class Operation:
     """`numbers`: constants that it works with; `key`: of its hashes; `kind`, `slope`: which variant."""
 
-    code: Code
+    code: int
     parts: tuple[int, ...] = ()
     numbers: tuple[float, ...] = ()
     key: tuple[int, ...] = ()
@@ -43,7 +43,7 @@ def _power(a: float, b: float) -> float:
     return elementary.power(abs(a), b)
 
 
-_WORKED: dict[Code, Callable[..., float]] = {
+_WORKED: dict[int, Callable[..., float]] = {
     Code.ADD: lambda a, b: a + b,
     Code.SUB: lambda a, b: a - b,
     Code.MUL: lambda a, b: a * b,
@@ -71,10 +71,10 @@ class Graph:
 
     def __init__(self) -> None:
         self.operations: list[Operation] = []
-        self._known: dict[Operation, int] = {}
+        self._known: dict[tuple[object, ...], int] = {}
         self.x, self.y = self.node(Code.X), self.node(Code.Y)
 
-    def node(self, code: Code, *parts: int, numbers: tuple[float, ...] = (), key: tuple[int, ...] = (), kind: int = 0,
+    def node(self, code: int, *parts: int, numbers: tuple[float, ...] = (), key: tuple[int, ...] = (), kind: int = 0,
              slope: int = 0) -> int:  # fmt: skip
         """Returns the node of an operation; TooLarge if there are too many."""
         work = _WORKED.get(code)
@@ -82,13 +82,13 @@ class Graph:
             given = [self.value(part) for part in parts]
             if None not in given:
                 return self.constant(work(*given))
-        told = Operation(code, parts, numbers, key, kind, slope)
+        told = code, parts, numbers, key, kind, slope
         found = self._known.get(told)
         if found is None:
             if len(self.operations) >= NODES_MOST:
                 raise TooLarge
             found = self._known[told] = len(self.operations)
-            self.operations.append(told)
+            self.operations.append(Operation(*told))
         return found
 
     def constant(self, value: float) -> int:
@@ -169,12 +169,13 @@ class Graph:
         return self.add(a, self.mul(self.sub(b, a), part))
 
 
-def needed_by(graph: Graph, nodes: Iterable[int]) -> list[int]:
-    """Returns all nodes that these need, and these, each behind what it needs."""
+def needed_by(graph: Graph, nodes: Iterable[int], known: Container[int] = ()) -> list[int]:
+    """Returns all nodes that these need, and these, each behind what it needs; but for what is known, and what only
+    that needs."""
     found, open_ = set(), list(nodes)
     while open_:
         node = open_.pop()
-        if node not in found:
+        if node not in found and node not in known:
             found.add(node)
             open_.extend(graph.operations[node].parts)
     return sorted(found)

@@ -22,13 +22,13 @@ SHOWN_LEAST, SHOWN_MOST = -1.0, 2.0  # of what a pixel shows
 _WIDE = 1e30  # of widths that are none
 _FAR = 2.0**30
 
-_ADD, _SUB, _MUL, _DIV, _MIN, _MAX = Code.ADD.value, Code.SUB.value, Code.MUL.value, Code.DIV.value, 7, 8
-_LESS, _ABS, _FLOOR, _SQRT = Code.LESS.value, Code.ABS.value, Code.FLOOR.value, Code.SQRT.value
-_ADD_TO, _TIMES, _SELECT, _WIDTH = Code.ADD_TO.value, Code.TIMES.value, Code.SELECT.value, Code.WIDTH.value
-_SIN, _COS, _TAN, _ATAN2 = Code.SIN.value, Code.COS.value, Code.TAN.value, Code.ATAN2.value
-_EXP, _LOG, _POW = Code.EXP.value, Code.LOG.value, Code.POW.value
-_NOISE, _WHITE, _CELLS, _RAMP = Code.NOISE.value, Code.WHITE.value, Code.CELLS.value, Code.RAMP.value
-_X, _Y, _RANDOM = Code.X.value, Code.Y.value, Code.RANDOM.value
+_ADD, _SUB, _MUL, _DIV, _MIN, _MAX = Code.ADD, Code.SUB, Code.MUL, Code.DIV, 7, 8
+_LESS, _ABS, _FLOOR, _SQRT = Code.LESS, Code.ABS, Code.FLOOR, Code.SQRT
+_ADD_TO, _TIMES, _SELECT, _WIDTH = Code.ADD_TO, Code.TIMES, Code.SELECT, Code.WIDTH
+_SIN, _COS, _TAN, _ATAN2 = Code.SIN, Code.COS, Code.TAN, Code.ATAN2
+_EXP, _LOG, _POW = Code.EXP, Code.LOG, Code.POW
+_NOISE, _WHITE, _CELLS, _RAMP = Code.NOISE, Code.WHITE, Code.CELLS, Code.RAMP
+_X, _Y, _RANDOM = Code.X, Code.Y, Code.RANDOM
 
 
 @inner_uncounted

@@ -83,7 +83,7 @@ def _ramp(graph: Graph, node: int, told: Operation, slopes: list[int]) -> int:
     return graph.mul(own, slopes[0])
 
 
-_RULES: dict[Code, _Rule] = {
+_RULES: dict[int, _Rule] = {
     Code.ADD: lambda g, n, told, s: g.add(*s),
     Code.SUB: lambda g, n, told, s: g.sub(*s),
     Code.ADD_TO: lambda g, n, told, s: s[0],
@@ -124,11 +124,10 @@ class Slopes:
         if target not in known:
             flat = graph.constant(0.0)
             known.update({graph.x: graph.constant(1.0 - axis), graph.y: graph.constant(float(axis))})
-            for node in needed_by(graph, [target]):
-                if node not in known:
-                    told = graph.operations[node]
-                    rule = _RULES.get(told.code)
-                    slopes = [known[part] for part in told.parts]
-                    level = rule is None or all(slope == flat for slope in slopes)
-                    known[node] = flat if level or rule is None else rule(graph, node, told, slopes)
+            for node in needed_by(graph, [target], known):
+                told = graph.operations[node]
+                rule = _RULES.get(told.code)
+                slopes = [known[part] for part in told.parts]
+                level = rule is None or all(slope == flat for slope in slopes)
+                known[node] = flat if level or rule is None else rule(graph, node, told, slopes)
         return known[target]

@@ -64,10 +64,9 @@ class Spreads:
         """Returns the spread of a node."""
         known = self.told
         if target not in known:
-            for node in needed_by(self._graph, [target]):
-                if node not in known:
-                    told = self._graph.operations[node]
-                    known[node] = self._made(told, [known[part] for part in told.parts])
+            for node in needed_by(self._graph, [target], known):
+                told = self._graph.operations[node]
+                known[node] = self._made(told, [known[part] for part in told.parts])
         return known[target]
 
     def _made(self, told: Operation, parts: list[Spread]) -> Spread:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from typing import NoReturn
 
 from engine.numeric.formula import CONSTANTS
+from engine.numeric.reader import quoted
 from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph, TooLarge
 from engine.texture.expression.slopes import Slopes
@@ -239,6 +240,10 @@ def _name(weaver: Weaver, term: Term, env: Env) -> Value:
     return Value((weaver.graph.constant(told[term.told]),))
 
 
+def _elsewhere(weaver: Weaver, term: Term, env: Env) -> Value:
+    weaver.refuse(term, f"the texture {quoted(term.told[1:-1])}", "a texture of this text: others cannot be named yet")
+
+
 def _first(weaver: Weaver, term: Term, env: Env) -> Value:
     return weaver.value(term.parts[0], env)
 
@@ -248,6 +253,7 @@ _OWN: dict[str, Rule] = {
     "constant": _constant,
     "colour": _colour,
     "name": _name,
+    "texture": _elsewhere,
     SLIDER: _first,
     PICK: _first,
 }

@@ -1,4 +1,4 @@
-"""WrittenText textures as instances: what they look like at a level, and what each finer level adds.
+"""Written textures as instances: what they look like at a level, and what each finer level adds.
 
 What they show is worked out for the width of a pixel at each level, so that the bandpass is what is left of a level
 when the coarser one is taken from it.  A number is grey, -1..1 for 0..1; a colour is premultiplied, as of a gradient.
@@ -14,7 +14,7 @@ import numpy as np
 
 from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
-from engine.texture.expression.language import read, weave
+from engine.texture.expression.language import Woven, read, weave
 from engine.texture.expression.programs import Program, draw_program, program
 from engine.texture.expression.weaving import Setting
 
@@ -103,14 +103,21 @@ def _program(text: str, values: tuple[tuple[str, float | str], ...], seed: int, 
     return woven_program(text, values, seed, finer, period)
 
 
+def woven_line(
+    text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, line: int = -1,
+    side: int = 1,
+) -> Woven:  # fmt: skip
+    """Returns what a line of a text is, so many levels finer than where its period is told, for one of so many samples
+    along a pixel."""
+    width = float(1 / pixels(period, max(finer, _COARSEST))) / side
+    return weave(read(text), Setting(dict(values), finer, seed, width), line)
+
+
 def woven_program(
     text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, line: int = -1
 ) -> Program:
-    """Returns the program of a line of a text, so many levels finer than where its period is told."""
-    written = read(text)
-    setting = Setting(dict(values), finer, seed, float(1 / pixels(period, max(finer, _COARSEST))))
-    woven = weave(written, setting, line)
+    """Returns the program of a line of a text: what it is for the samples that it asks for."""
+    about = (text, values, seed, finer, period, line)
+    woven = woven_line(*about)
     side = woven.value.side
-    if side > 1:
-        woven = weave(written, replace(setting, width=setting.width / side), line)
-    return program(woven, side)
+    return program(woven if side == 1 else woven_line(*about, side), side)

@@ -85,6 +85,16 @@ RIGHT: dict[str, dict[str, Any]] = {
         "count": 6,
     },
     "bookmark": {"do": "bookmark", "name": "b", "level": 1.5, "origin": [0, 0], "size": [20, 20], "angle": 3},
+    "expression": {
+        "do": "texture",
+        "name": "w",
+        "maker": "expression",
+        "text": "a = slider(0.5, 0, 1); a*noise(x, y)",
+        "period": 64,
+        "level": 1,
+        "seed": 3,
+        "values": {"a": 0.25},
+    },
     "gradient": {
         "do": "texture",
         "name": "r",

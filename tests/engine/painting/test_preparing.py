@@ -15,7 +15,7 @@ from engine.brush.parts import Surface
 from engine.brush.settings import Brush
 from engine.painting.commands import parse
 from engine.studio.preparing import exercise, noted
-from engine.studio.preparing.job_queue import FILES, LEARNT_DETAIL, STRUCTURE, Job, expected, job_of
+from engine.studio.preparing.job_queue import FILES, LEARNT_DETAIL, STRUCTURE, WRITTEN_TEXTURES, Job, expected, job_of
 from engine.studio.preparing.processes import Preparing
 from engine.studio.requests import Swatch
 
@@ -81,7 +81,7 @@ def test_brushes_of_textures_with_a_structure_come_after_what_these_need():
         texture = parse({"do": "texture", "name": name, "maker": "match", "path": "a.png", **more})
         brushes[name] = Swatch(name, Brush(), (104, 44), textures=(texture,))
     slow, finer, soon = map(job_of, brushes.values())
-    assert expected(brushes.values()) == (soon, LEARNT_DETAIL, STRUCTURE, slow, finer, FILES)
+    assert expected(brushes.values()) == (soon, WRITTEN_TEXTURES, LEARNT_DETAIL, STRUCTURE, slow, finer, FILES)
 
 
 def compiled(folder, preparing, seconds=60.0):

@@ -6,6 +6,7 @@ import pytest
 from engine.texture.expression.told import expression
 
 from engine.numeric.address import Rect
+from engine.texture.expression.defined import expression
 from engine.texture.expression.examined import shimmer
 
 LEVELS = range(-5, 5)
