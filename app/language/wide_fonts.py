@@ -1,4 +1,5 @@
-"""Fonts with the letters of Japanese and Chinese, which the window's own has not: one of the system's."""
+"""Fonts with the letters of Japanese and Chinese, which the window's own has not: one of the system's, else a small one
+that comes along, with the letters of the catalogue alone."""
 
 from __future__ import annotations
 
@@ -8,6 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from imgui_bundle import imgui
+
+from app.language.words import CATALOGUES
 
 # Files, best first, and which face of the file each language has.
 _BOTH = ("NotoSansCJK-Regular.ttc", "NotoSansCJK-VF.otf.ttc", "SourceHanSans.ttc", "DroidSansFallbackFull.ttf")
@@ -25,13 +28,17 @@ _FONTS = {
 }
 _FACES = {"ja": 0, "zh_CN": 2}  # of Noto's and Adobe's collections
 _COLLECTIONS = _BOTH[:3]
+_SIZE = 20.0  # points at which their letters are as large as the window's own at 15
 _loaded: set[str] = set()
 
 
 def wide_font(code: str) -> Path | None:
     """Returns the file of a font for a language that needs another one than the window's; None for others, and where
     none is found.  It looks through folders."""
-    return _found(_FONTS[code]) if code in _FONTS else None
+    if code not in _FONTS:
+        return None
+    bundled = CATALOGUES / f"NotoSansCJK-{code}.otf"
+    return _found(_FONTS[code]) or (bundled if bundled.exists() else None)
 
 
 def load_wide_font(code: str, font: Path | None) -> bool:
@@ -43,7 +50,7 @@ def load_wide_font(code: str, font: Path | None) -> bool:
     told = imgui.ImFontConfig()
     told.merge_mode = True
     told.font_no = _FACES[code] if font.name in _COLLECTIONS else 0
-    imgui.get_io().fonts.add_font_from_file_ttf(str(font), 15.0, told)
+    imgui.get_io().fonts.add_font_from_file_ttf(str(font), _SIZE, told)
     _loaded.add(code)
     return True
 

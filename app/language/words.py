@@ -20,6 +20,7 @@ _MOST = 20_000  # texts that are remembered
 _PLACE = re.compile(r"\{(\w+)\}")
 _EDGES = re.compile(r"([\s\ue000-\uf8ff+]*)(.*?)(\s*)", re.DOTALL)  # signs before a text, and what is empty
 _KEYS = re.compile(r"(.*\S)(  \([^()]+\))", re.DOTALL)  # a hint and its keys
+_LETTERS = re.compile(r"[A-Za-z]{2}")
 _OWN = {"name", "path", "stem", "title_of", "file", "layer", "only", "key"}  # places of what is the artist's own
 
 
@@ -74,8 +75,11 @@ class Words:
             if match is not None:
                 yield self._filled(form.becomes, match.groupdict())
         for between in (": ", ".  ", "; ", ", "):
-            if between in text and (parts := list(map(self.of, text.split(between)))) != text.split(between):
-                yield between.join(parts)
+            if between in text:
+                parts = text.split(between)
+                told = list(map(self.of, parts))
+                if all(one != other or not _LETTERS.search(one) for one, other in zip(parts, told, strict=True)):
+                    yield between.join(told)
         if (sentence := text[:1].upper() + text[1:]) in self._whole:  # in the middle of another one
             found = self._whole[sentence]
             yield found if self.code == "de" else found[:1].lower() + found[1:]

@@ -8,6 +8,7 @@ from app.actions.action import Action
 from app.actions.actions import ACTIONS, MENUS, perform
 from app.desk.desk import Desk
 from app.language import said
+from app.language.words import say
 from app.panels import recent_menu
 from app.panels.arranging.workspaces_dialog import draw_workspaces
 from app.panels.controls import widgets as w
@@ -59,6 +60,7 @@ def _item(desk: Desk, action: Action) -> None:
 
 
 def _title(desk: Desk) -> None:
-    text = f"{desk.known.title}{' *' if desk.known.modified else ''}"
+    title = desk.known.title if desk.known.path is not None else say(desk.known.title)
+    text = f"{title}{' *' if desk.known.modified else ''}"
     imgui.same_line((desk.view.width - imgui.calc_text_size(text).x) / 2)
     imgui.text_disabled(text)

@@ -37,13 +37,13 @@ def shortened(text: str, width: float) -> str:
 
 
 def fitting_button(label: str, width: float) -> bool:
-    """Draws a button that is so wide, 0 for as wide as its text; tells whether it was pressed.  A text that is a little
-    too wide, as in some languages, is drawn smaller; for one that is wider still the button is wider, too."""
+    """Draws a button that is so wide; tells whether it was pressed.  0: as wide as its text, below: up to the end.  A
+    text that is a little too wide, as in some languages, is smaller; for one still wider the button is wider, too."""
     wanted, pad = text_width(label), 2 * imgui.get_style().frame_padding.x
-    if not width or wanted + pad <= width:
+    if width <= 0 or wanted + pad <= width:
         return said.button(label, ImVec2(width, 0))
-    part, tall = max(_SMALLEST, (width - pad) / wanted), imgui.get_frame_height()
-    imgui.push_font(None, imgui.get_style().font_size_base * part)
+    part, tall, style = max(_SMALLEST, (width - pad) / wanted), imgui.get_frame_height(), imgui.get_style()
+    imgui.push_font(None, part * imgui.get_font_size() / (style.font_scale_main * style.font_scale_dpi))
     pressed = said.button(label, ImVec2(max(width, wanted * part + pad), tall))
     imgui.pop_font()
     return pressed

@@ -14,6 +14,7 @@ from app.desk.desk import Desk
 from app.desk.examples import cutting_work, example_pictures, example_state, example_use, example_work, thumbnails
 from app.desk.examples.example_state import Entry
 from app.language import said
+from app.language.words import say
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.examples.finding_panel import FindingPanel
@@ -276,6 +277,6 @@ def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float])
     """Draws a name below its picture, in the middle."""
     size = imgui.get_font_size() * NAME
     scale = size / imgui.get_font_size()
-    name = _fitting(name, (wide + 2) / scale)
+    name = _fitting(say(name), (wide + 2) / scale)
     left = at.x + max(0.0, (wide - said.calc_text_size(name).x * scale) / 2)
     imgui.get_window_draw_list().add_text(imgui.get_font(), size, ImVec2(left, at.y), theme.packed(grey), name)
