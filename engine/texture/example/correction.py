@@ -13,6 +13,7 @@ import numpy as np
 from engine.numeric.hashing import mix64
 from engine.numeric.kernel import Array, Int, inlined, inner_uncounted, uncounted
 from engine.numeric.neighbourhood import (
+    FULL,
     RADIUS,
     SIDE,
     middle_apart,
@@ -116,7 +117,7 @@ def _energy(
 def _corrected(window: Window, y: Int, x: Int, p: Int, example: Example, rules: Rules, tried: np.ndarray) -> Int:
     """Returns the best source for one pixel: what continues its neighbours' sources, or what is much nearer."""
     bits = window.bits[y, x] & rules.square
-    rim = bits != rules.square
+    rim = bits != rules.square or window.bits[y, x] > FULL
     if not rules.rims:
         bits = rules.square
     searched = rules.stride > 0 or (bits != rules.square and p == 1)
@@ -218,7 +219,7 @@ def _searched_rim(
     neighbours: so shapes override colours, whatever the rim looks like (Ritter et al. 2006, section 5).
     """
     way = way_of(window, y, x, example)
-    first, last = _alike(example.starts[way : way + COUNTS + 1], ones(window.bits[y, x]))
+    first, last = _alike(example.starts[way : way + COUNTS + 1], ones(window.bits[y, x] & FULL))
     step = max(_ONE_IN, (last - first) // rules.shapes)
     first += np.int64(h % np.uint64(step))
     nearest, count = np.int32(SIDE * SIDE + 1), 0

@@ -30,6 +30,7 @@ COUNTS = 50  # of region pixels among 7 x 7
 _COARSEST, _COARSEST_BOUNDED = 11, 17
 _CHOICES = 25  # of where a patch comes from, at least
 _SMOOTHED = 0.32  # of a smoothed mask: where its region ends, a little outside the old one
+_FAINT = 8  # pixels of a rim, at most, that are looked at
 _RIM_SHAPES = 256  # that are looked at, about
 _LUMINANCE = (0.2126, 0.7152, 0.0722)
 
@@ -96,6 +97,22 @@ class Exemplar:
     def seamless(self) -> bool:
         """Tells whether it is grown by the method SEAMLESS, which knows nothing of control channels."""
         return self.parameters.method == SEAMLESS and self.control is None
+
+    @cached_property
+    def faint(self) -> int:
+        """Tells how many pixels of the rim, from its outline on, are less than half as opaque as the region is in the
+        mean, _FAINT at most."""
+        if not self.boundary:
+            return 0
+        inside, alpha = self.mask, self.pixels[..., 3].astype(np.int64)
+        whole, count = int(alpha[inside].sum()), int(inside.sum())
+        for depth in range(_FAINT):
+            inner = _eroded(np.pad(inside, 1), 3)[:-2, :-2]
+            rim = inside & ~inner
+            if 2 * int(alpha[rim].sum()) * count >= whole * int(rim.sum()) or not inner.any():
+                return depth
+            inside = inner
+        return _FAINT
 
     @cached_property
     def ragged(self) -> int:

@@ -20,7 +20,7 @@ from engine.numeric.address import Rect
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
 from engine.numeric.neighbourhood import RADIUS
-from engine.texture.example import correction, pieces, starts, tiles, told
+from engine.texture.example import correction, narrow, pieces, starts, tiles, told
 from engine.texture.example.correction import REACH
 from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.region_value import Filled as Filled
@@ -116,7 +116,9 @@ def refining(region: Region, upto: int = 0, threads: Executor | None = None) -> 
         for done, found in _refining_level(region, n, threads):
             sources = found
             yield Step(region, n, done)
-        level = Filled(region.masks[n], region.above(n), sources, region.told[n] if region.told else NONE)
+        told_there = region.told[n] if region.told else NONE
+        seen = region.masks[narrow.seen_level(region, n)]
+        level = Filled(region.masks[n], region.above(n), sources, told_there, seen)
         region = replace(region, levels=(*region.levels[:n], level, *region.levels[n + 1 :]))
         yield Step(region, n, 1.0)
 
@@ -202,7 +204,7 @@ def _squares(region: Region, n: int, shared: bool) -> list[Square]:
     more of them if they are to be shared out."""
     old = region.levels[n]
     altered = tiles.changed_rect(old.mask, region.masks[n], 0)
-    altered = altered.union(told.altered(region, n, altered))
+    altered = altered.union(told.altered(region, n, altered)).union(narrow.newly_narrow(region, n, altered))
     altered = altered.union(tiles.changed_rect(old.above, region.above(n), OUTSIDE).zoomed(1))
     if altered.empty:
         return []
@@ -214,7 +216,7 @@ def _squares(region: Region, n: int, shared: bool) -> list[Square]:
         whole = _filled_part(region, n, whole)
         return [] if whole.empty else [(whole, MARGIN)]
     whole = whole.intersect(tiles.hull(old.mask).union(tiles.hull(region.masks[n])))  # beyond it nothing is to be done
-    keys, rims = tiles.changed(old.mask, region.masks[n]), told.rim_reach(region, n)
+    keys, rims = tiles.changed(old.mask, region.masks[n]), told.rim_reach(region, n) + narrow.narrow_reach(region, n)
     near = [tiles.rect_of(key).grown(RADIUS + reach + rims) for key in keys]
     if region.told:
         near += [tiles.rect_of(key).grown(reach) for key in tiles.changed(old.told, region.told[n])]
@@ -259,6 +261,7 @@ def _readying(region: Region, n: int, square: Rect, room: int) -> Generator[tupl
     hashes = hash_plane(fold_key(_DOMAIN, region.seed, n), rect.x0, rect.y0, rect.width, rect.height)
     place = WindowPlace(rect.y0 & 1, rect.x0 & 1, told.told_within(region, n, rect))
     window = window_of(mask, was, planes, hashes, place)
+    narrow.widen(region, n, rect, window)
     yield 0.0, None
     if _coarsest(region, n):
         _start_coarsest(region, window, rect)

@@ -15,12 +15,14 @@ from engine.texture.example.tiles import NONE, Tiles
 @dataclass(frozen=True, slots=True, eq=False)
 class Filled:
     """A level as it was refined: for which region, from which sources one level coarser; `sources`: int32 planes, one
-    for each pass, the last of which counts; `told`: what control channels told."""
+    for each pass, the last of which counts; `told`: what control channels told; `seen`: the region at the level where
+    narrow parts are looked for."""
 
     mask: Tiles = NONE
     above: Tiles = NONE
     sources: Tiles = NONE
     told: Tiles = NONE
+    seen: Tiles = NONE
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,7 +10,7 @@ import numpy as np
 
 from engine.numeric.hashing import mix64
 from engine.numeric.kernel import Array, Int, inlined, inner_uncounted, uncounted
-from engine.numeric.neighbourhood import RADIUS, ones
+from engine.numeric.neighbourhood import FULL, RADIUS, ones
 from engine.texture.example.channels import told_apart, turned_source, way_of
 from engine.texture.example.exemplar import COUNTS
 from engine.texture.example.region_window import OUTSIDE, Example, Rules, Window, mark_readers, shape_at, turn_of
@@ -117,7 +117,7 @@ def _draw(
                     middle = np.int32((block >> 1) << 16 | block >> 1)
                     start = _as_told(window, y, x, start, (chance, corners, place, middle), example, rules)
                 if rules.pieces:
-                    starts[y, x] = _piece(window.bits[y, x], start, chance, place, example, rules)
+                    starts[y, x] = _piece(window.bits[y, x] & FULL, start, chance, place, example, rules)
                 else:
                     starts[y, x] = _shaped(window, y, x, start, example, rules)
 

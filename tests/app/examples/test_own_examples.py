@@ -18,7 +18,7 @@ from engine.makers.definitions import defined_by
 from engine.painting.commands import parse, to_json
 from engine.session.session import Session
 from engine.studio.textures.texture_requests import RegionClose
-from engine.texture.example.parameters import Parameters
+from engine.texture.example.parameters import NEW
 
 
 def test_a_dropped_picture_is_an_example_and_its_region_is_opened(desk, own, tmp_path):
@@ -211,7 +211,7 @@ def test_ones_own_settings_are_kept_in_its_file(desk, tmp_path):
     example_work.use_settings(desk)
     (read,), faults = example_state.load_examples(example_state.own_folder(), True)
     assert not faults
-    assert read.parameters == replace(Parameters(), kappa=4.5, channels="luminance", feather=0, neighbourhood=5)
+    assert read.parameters == replace(NEW, kappa=4.5, channels="luminance", feather=0, neighbourhood=5)
     example_work.keep_settings(desk)
     assert state.entry.name == "rock 2"
     assert state.entry.parameters == read.parameters
@@ -222,7 +222,7 @@ def test_a_file_of_parameters_that_is_none_is_told_by_its_line(own):
     picture(own / "a.png")
     (own / "a.toml").write_text('group = "X"\nkappa = "much"\n')
     (entry,), (fault,) = example_state.load_examples(own, True)
-    assert entry.parameters == Parameters()
+    assert entry.parameters == NEW
     assert fault.startswith("a.toml: line 2, kappa")
 
 

@@ -32,6 +32,14 @@ def bounded(side: int = 64, **values) -> Exemplar:
     return analysed(blob(side)[0], None, Parameters(**values))
 
 
+def faint(side: int = 64, **values) -> Exemplar:
+    """With a rim that is all but transparent for some pixels."""
+    pixels, mask = blob(side)
+    y, x = np.mgrid[:side, :side] - (side - 1) / 2.0
+    pixels[..., 3] = np.clip(26 * (0.44 * side - np.hypot(x, y)), 1, 255) * mask
+    return analysed(pixels, None, Parameters(**values))
+
+
 def unbounded(side: int = 48, **values) -> Exemplar:
     """The same without its rim: it fills its picture."""
     inner = blob(2 * side)[0][side // 2 : -side // 2, side // 2 : -side // 2].copy()

@@ -6,7 +6,7 @@ from threading import Event
 
 import numpy as np
 import pytest
-from exemplars import bounded, controlled, told_at, unbounded
+from exemplars import bounded, controlled, faint, told_at, unbounded
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import ndimage
@@ -25,6 +25,7 @@ EXEMPLARS = {
     "two passes": bounded(passes=2, neighbourhood=5),
     "told": controlled(),
     "seamless": bounded(method=2),
+    "seamless, faint": faint(method=2),
     "seamless, unbounded": unbounded(method=2),
 }
 EXAMPLES = Path(__file__).parents[3] / "palettes" / "examples"

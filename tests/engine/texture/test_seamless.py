@@ -6,7 +6,7 @@ import zlib
 
 import numpy as np
 import pytest
-from exemplars import bounded, unbounded
+from exemplars import bounded, faint, unbounded
 
 from engine.numeric.address import Rect
 from engine.numeric.neighbourhood import FULL, straight_shapes
@@ -15,6 +15,7 @@ from engine.texture.example.exemplar import PAD, Exemplar
 from engine.texture.example.region import empty, painted, refined
 from engine.texture.example.rules import example_of
 
+METHODS = {}, {"method": 2}
 RECT = Rect.at(-31, 17, 150, 90)
 # Of what each method grows: to be altered with the method alone, which then is another one.
 GROWN = {
@@ -84,6 +85,18 @@ def test_straight_shapes_are_those_of_half_planes():
     assert ((shapes >> np.uint64(24)) & np.uint64(1)).all()  # the pixel itself is inside
     assert bounded(64).ragged >= 1
     assert unbounded(48).ragged == 0
+
+
+@pytest.mark.parametrize("level", [False, True])
+def test_narrow_strokes_are_not_as_faint_as_a_rim(level):
+    y, x = np.mgrid[:80, :260]
+    middle = 40 if level else 40 + 20 * np.sin(x / 30.0)
+    mask = abs(y - middle) < 4
+    found = [grown(faint(120, **values), Rect(0, 0, 260, 80), mask)[1][..., 3][mask].mean() for values in METHODS]
+    assert found[1] > 1.5 * found[0]
+    wide = abs(y - middle) < 30
+    found = [grown(faint(120, **values), Rect(0, 0, 260, 80), wide)[1][..., 3][wide].mean() for values in METHODS]
+    assert abs(found[1] / found[0] - 1.0) < 0.1
 
 
 def test_ragged_rims_are_as_faint_as_they_are():
