@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from immutables import Map
 
+from engine.brush.parts import BY_STROKE
 from engine.brush.settings import Brush
 from engine.canvas.composite import composite
 from engine.canvas.growth import settling
@@ -21,11 +22,12 @@ from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
+from engine.strokes.example_maps import channels_to_json, made, read_maps
 from engine.strokes.example_stroke import kind_of
 from engine.strokes.example_textures import KIND
 from engine.studio import faults, results
 from engine.studio import requests as q
-from engine.texture.example.parameters import NEW
+from engine.texture.example.parameters import NEW, ORIENTATION, RIM_CHANNEL
 from engine.texture.image import ImageSource
 
 _SIDE = 96  # pixels along the example: enough for several levels
@@ -56,10 +58,11 @@ class Warming:
 
 def paint_once() -> None:
     """Paints with an example, looks at it from all sides, and takes some away."""
-    painting = Painting(seed=1, textures=Map({"a": _texture()}))
+    painting = Painting(seed=1, textures=Map({"a": _texture(), "b": _told_texture()}))
     grows = Brush(radius=28.0, mode="example", example="a", hardness=1.0, example_detail=1)
     takes = replace(grows, mode="erase", depth=0.0, radius=6.0)
-    for brush, x in ((grows, 0), (grows, 400), (takes, 0)):  # also where no coordinate changes its sign
+    follows = replace(grows, example="b", depth=1.0, control=Map({ORIENTATION: BY_STROKE}))
+    for brush, x in ((grows, 0), (grows, 400), (takes, 0), (follows, 0)):  # also where no coordinate changes its sign
         painting = _drawn(painting, brush, (x, x))
 
 
@@ -78,6 +81,14 @@ def _drawn(painting: Painting, brush: Brush, origin: tuple[int, int]) -> Paintin
     for level in (-1, 0, 1, 2):
         composite(done.root, level, Rect.at(-32, -32, 64, 64), layer_planes)
     return done
+
+
+def _told_texture() -> Texture:
+    """Returns the same with control channels."""
+    maps = {ORIENTATION: {"strokes": [{"points": [[9, 48], [87, 48]]}], "turns": 8}, RIM_CHANNEL: {"width": 12}}
+    channels, planes = made("b", read_maps(maps), None, np.ones((_SIDE, _SIDE), np.bool_))
+    plain = _texture()
+    return replace(plain, parameters=plain.parameters.set("controls", channels_to_json(channels)), control=planes)
 
 
 def _texture() -> Texture:

@@ -208,3 +208,24 @@ def test_parameter_files(tmp_path):
     with pytest.raises(FileError, match=r"line 2: found bytes that are not UTF-8"):
         read_parameters(path)
     assert len(FIELDS) == 13
+
+
+def test_pictures_tell_the_maps_that_the_parameters_name(tmp_path, capsys):
+    given, (place, inside) = example(tmp_path, mode="L"), region(tmp_path)
+    (tmp_path / "p.toml").write_text("feather = 0\n[maps.orientation]\nturns = 4\n[maps.rim]\nwidth = 6\n")
+    Image.fromarray(np.full(inside.shape, 64, np.uint8)).save(tmp_path / "down.png")
+    words = given, "--params", tmp_path / "p.toml", "--region", place
+    across = filled(tmp_path, *words, "--json")
+    assert json.loads(capsys.readouterr().out)["maps"] == ["orientation", "rim"]
+    down = filled(tmp_path, *words, "--told", f"orientation={tmp_path / 'down.png'}", out="down2.png")
+    assert np.array_equal(across[..., 3] > 0, inside)
+    assert (across != down).any()
+    for told, what in (
+        ("size=x.png", "--told: found size=x.png, expected NAME=P.png, NAME one of orientation"),
+        (f"orientation={given}", "in.png: found 36 x 40 pixels, expected 60 x 50 as the region"),
+    ):
+        filled(tmp_path, *words, "--told", told, code=2)
+        assert what in capsys.readouterr().err
+    (tmp_path / "p.toml").write_text('method = "scanline"\n[maps.rim]\n')
+    filled(tmp_path, *words, code=2)
+    assert 'maps: found maps with method "scanline", expected method "correction"' in capsys.readouterr().err

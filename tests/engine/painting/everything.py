@@ -131,6 +131,11 @@ def _grown() -> Iterator[tuple[str, list[Any]]]:
     over = stroke(*BACK, mode="example", example="u", radius=9, depth=1, example_detail=1)
     other = texture("example", "u", path="colour.png")
     yield "example-over", [defined, other, grow, over, {"do": "swap", "at": [40, 30], "example": "u"}]
+    maps = {"orientation": {"strokes": [{"points": [[9, 20], [30, 26]]}], "turns": 8}, "rim": {"width": 9}}
+    lit = {"points": [[9, 9], [20, 14]], "brush": {"radius": 6, "colour": "#c0c0c0"}}
+    told = texture("example", path="blob.png", maps=maps | {"glow": {"strokes": [lit]}}, levels=3)
+    follows = stroke(mode="example", example="t", radius=11, control={"orientation": "stroke", "glow": 0.4})
+    yield "example-told", [told, follows, stroke(*BACK, mode="example", example="t", radius=8, control={})]
     yield "example-painted-over", [defined, grow, stroke(*BACK, radius=5)]
 
 

@@ -189,8 +189,3 @@ def test_what_is_wrong_with_maps_is_told_in_one_line(meadow, maps, told):
     Image.new("L", (5, 4)).save(meadow / "b.wrong.png")
     with pytest.raises((Refusal, FileError), match=told):
         fresh(meadow).do(texture("c", "a.png", maps=maps))
-
-
-def test_maps_are_not_for_the_method_of_lines(meadow):
-    with pytest.raises(Refusal, match=r'maps: found maps with method "scanline", expected method "correction"'):
-        fresh(meadow).do(texture("c", "a.png", maps={"rim": {}}, method="scanline"))
