@@ -99,6 +99,7 @@ class LiveStroke(Drawn):
             if isinstance(self._mask, WetMask) and self.layer.growth and self._flatten(dabs):
                 stood = stood.union(self._mask.rect)
                 self._again()  # what was laid saw the layer as it was
+                dabs = self._walked(points)
             for part in copying.copied(dabs, self.copies):
                 touched |= self._mask.paint(part)
             dirty = tile_bounds(touched).union(stood)

@@ -72,10 +72,25 @@ def _cases() -> Iterator[Case]:
             yield Case(name, radius, moving, _OVER, goal, 0.0 if name == "erase" else SMUDGE)
 
 
+def _felt() -> Iterator[Case]:
+    """Tips, what follows chance, and textures along the stroke, over paint."""
+    rock = {"texture": "rock", "amount": 0.8}
+    rows: dict[str, dict[str, object]] = {
+        "slender": {"shape": {"ratio": 0.3, "angle": 30}},
+        "hue by dab": {"dynamics": {"hue": {"random_dab": [[0, 0.9], [1, 1.1]]}, "opacity": "pressure"}},
+        "rock along the stroke": {"ink": [rock], "fixed": "stroke"},
+        "dry along the stroke": {"density": rock, "fixed": "stroke"},
+    }
+    for name, members in rows.items():
+        yield Case(
+            name, 32.0, from_json({"hardness": HARDNESS, "spacing": SPACING, "radius": 32, **members}), _OVER, 1.0
+        )
+
+
 def measure(small: bool = False) -> Iterator[Figure]:
     repeats, points = (1, curve(20)) if small else (REPEATS, curve(POINTS))
     slow = 1.0 if libmypaint.library() else slowness()
-    for case in _cases():
+    for case in (*_cases(), *_felt()):
         yield _figure(case, points, repeats, slow)
 
 

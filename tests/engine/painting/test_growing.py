@@ -318,3 +318,19 @@ def test_amending_is_no_step_and_undo_keeps_what_was_refined(meadow):
     done(session, [c.Redo(), c.Undo()])
     assert session.history.held == held
     assert settled(session.painting) is session.painting
+
+
+def test_a_wet_stroke_takes_up_what_was_grown_however_its_points_come(meadow):
+    wet = from_json({"radius": 8, "hardness": 0.6, "wet": {"amount": 0.8, "length": 0.9}, "dynamics": {}})
+    points = np.zeros((24, 6))
+    points[:, 0], points[:, 1], points[:, 2] = np.linspace(2, 90, 24), 30.0, 1.0  # from bare canvas onto what is grown
+    found = []
+    for portion in (24, 1):
+        session = fresh(meadow)
+        session.do(stroke([[60, 30]], example="a", radius=14))
+        live = session.begin(0, (0, 0), wet)
+        for start in range(0, len(points), portion):
+            live.add(points[start : start + portion])
+        session.finish(live)
+        found.append(pixels(session.painting))
+    assert alike(*found)
