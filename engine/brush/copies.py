@@ -125,10 +125,11 @@ def copied_places(points: np.ndarray, copies: Copies) -> np.ndarray:
     return out
 
 
-def copied(dabs: np.ndarray, copies: Copies | Torus) -> Iterator[np.ndarray]:
-    """Yields the dabs of a stroke, float64 (n, 6), each followed by its copies, a portion at a time."""
+def copied(dabs: np.ndarray, copies: Copies | Torus, together: int = 1) -> Iterator[np.ndarray]:
+    """Yields the dabs of a stroke, float64 (n, 6), each followed by its copies, a portion at a time; never a part of
+    so many `together`."""
     if isinstance(copies, Torus):
-        for part in copied(dabs, copies.copies):
+        for part in copied(dabs, copies.copies, together):
             around = np.stack([copies.shifted(part, *by) for by in _AROUND], axis=1)
             yield around.reshape(-1, dabs.shape[1])
         return
@@ -136,7 +137,7 @@ def copied(dabs: np.ndarray, copies: Copies | Torus) -> Iterator[np.ndarray]:
         yield dabs
         return
     widest, each = SETTINGS["radius"].hi, 1 + len(copies)
-    portion = max(1, _AT_ONCE // each)
+    portion = max(1, _AT_ONCE // each // together) * together
     for start in range(0, len(dabs), portion):
         part = dabs[start : start + portion]
         out = np.repeat(part[:, None], each, axis=1)

@@ -21,6 +21,7 @@ BEGUN, AT_X, AT_Y, CARRIED = range(4)  # of a state; from CARRIED on what is car
 WAY_X, WAY_Y, TIP_FRONT = range(3, 6)  # of a tip of hairs, after where it is
 TIP = 6
 _LEAST_REACH = 1.25  # px: how far around paint is taken up
+_MIDDLE = 0.01  # what the pixel in the middle counts at least
 
 
 @inner_uncounted
@@ -49,6 +50,8 @@ def _look(place: tuple[float, float, float], matrix: tuple[float, float, float, 
             dx, dy = x + 0.5 - cx, y + 0.5 - cy
             u, v = matrix[0] * dx + matrix[1] * dy, matrix[2] * dx + matrix[3] * dy
             weight = 1.0 - (u * u + v * v) / (reach * reach)
+            if abs(dx) <= 0.5 and abs(dy) <= 0.5:
+                weight = max(weight, _MIDDLE)  # a slender tip may miss the middle of every pixel
             if weight <= 0.0:
                 continue
             last, slot, row, column = square_of(x, y, manner, water, (last, slot))
@@ -91,6 +94,8 @@ def _lay(dab: Array, place: tuple[float, float, float], matrix: tuple[float, flo
             before = float(pixel[2 * n])
             covered = before + max(0.0, ceiling - before) * profile
             strength = ceiling * profile
+            if strength <= 0.0:
+                continue
             share = min(strength / max(covered, strength), 1.0)
             pixel[2 * n] = np.float32(covered)
             for c in range(n):

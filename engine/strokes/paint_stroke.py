@@ -100,7 +100,7 @@ class LiveStroke(Drawn):
                 stood = stood.union(self._mask.rect)
                 self._again()  # what was laid saw the layer as it was
                 dabs = self._walked(points)
-            for part in copying.copied(dabs, self.copies):
+            for part in copying.copied(dabs, self.copies, self.brush.shape.bristles or 1):
                 touched |= self._mask.paint(part)
             dirty = tile_bounds(touched).union(stood)
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
@@ -140,7 +140,7 @@ class LiveStroke(Drawn):
         self._mask = self._new_mask()
         self._edit = None
         for points in self._points:
-            for part in copying.copied(self._walked(points), self.copies):
+            for part in copying.copied(self._walked(points), self.copies, self.brush.shape.bristles or 1):
                 self._mask.paint(part)
 
     def _walked(self, points: np.ndarray) -> np.ndarray:

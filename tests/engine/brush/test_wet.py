@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.brush.checks import BrushError
+from engine.brush.copies import Copy
 from engine.brush.settings import from_json, to_json
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
@@ -216,6 +217,27 @@ def test_colours_stay_between_those_that_there_are(length, amount, dilution, mix
     rgba = pixels(session)[:4]
     assert 0 <= rgba.min() <= rgba.max() <= 1
     assert (rgba[:3] <= rgba[3] + 2**-14).all()
+
+
+def test_hairs_of_a_tip_stay_together_in_its_copies(monkeypatch):
+    copy = Copy(0.0, 1.0, 90.0, -30.0, True)
+    brush, found = wet(**KINDS["hairs"]), []
+    for most in (1 << 18, 40):
+        monkeypatch.setattr("engine.brush.copies._AT_ONCE", most)
+        session = halves()
+        draw(session, brush, ACROSS, copies=(copy,))
+        found.append(pixels(session).tobytes())
+    assert found[0] == found[1]
+
+
+@settings(deadline=None, max_examples=10)
+@given(st.floats(0, 40), st.floats(0.01, 1), st.floats(-90, 90), PART, st.integers(0, 5))
+def test_tips_however_slender_or_small_take_up_paint(radius, ratio, angle, least, hairs):
+    shape = {"ratio": ratio, "angle": angle, "follow": "direction", "bristles": hairs}
+    session = halves()
+    brush = wet(amount=0.7, radius=radius, shape=shape, dynamics={"radius": {"fade": [[0, least], [9, 0], [20, 1]]}})
+    draw(session, brush, ACROSS[::4])
+    assert 0 <= pixels(session)[:4].min() <= pixels(session)[:4].max() <= 1
 
 
 def test_it_is_told_as_it_was_read_and_is_of_version_2():
