@@ -1,8 +1,9 @@
 """The machine that works written textures out: a list of operations on rows of samples.
 
-It is compiled once, whatever is written.  A program is int32 (n, 10): code, target, four sources, and where numbers
-and keys begin, how many there are, which slope is meant; sources and targets are rows of `registers`, float64 (rows,
-LENGTH), the first of which are the constants.  No row depends on how the samples are cut into blocks.
+It is compiled once, whatever is written.  A program is int32 (n, 12): code, target, four sources, where numbers and
+keys begin, how many there are, which slope is meant, and the targets of both slopes where these are made beside a
+value.  Sources and targets are rows of `registers`, float64 (rows, LENGTH), the first of which are the constants.
+What a row holds does not depend on how the samples are cut into blocks.
 """
 
 from __future__ import annotations
@@ -15,10 +16,11 @@ from engine.numeric import elementary
 from engine.numeric.kernel import forced, inner_uncounted, uncounted
 from engine.texture.expression.cell_rows import cell_row
 from engine.texture.expression.codes import Code
-from engine.texture.expression.noise_rows import hash32, noise_row, white_row
+from engine.texture.expression.noise_rows import hash32, noise_row, noise_rows, white_row
 
 LENGTH = 256  # samples of a block
 SHOWN_LEAST, SHOWN_MOST = -1.0, 2.0  # of what a pixel shows
+WITH_SLOPES = 3  # of noise: value and both slopes
 _WIDE = 1e30  # of widths that are none
 _FAR = 2.0**30
 
@@ -177,11 +179,25 @@ def _scattered(
             out[i] = 0.0
         for n in range(op[8]):
             first = op[6] + 5 * n
-            noise_row(u, v, widths, numbers[first : first + 5], keys[op[7] + n], op[9], room, out)
+            noise_row(u, v, widths, numbers[first : first + 5], keys[op[7] + n], room, out)
     elif op[0] == _WHITE:
         white_row(u, v, widths, keys[op[7]], op[8], room, out)
     else:
         cell_row(u, v, widths, numbers[op[6]], keys[op[7]], op[8], op[9], out)
+
+
+@inner_uncounted
+def _noise_and_slopes(
+    op: np.ndarray, rows: tuple[np.ndarray, np.ndarray, tuple[np.ndarray, np.ndarray]], numbers: np.ndarray,
+    keys: np.ndarray, room: np.ndarray, outs: tuple[np.ndarray, np.ndarray, np.ndarray],
+) -> None:  # fmt: skip
+    u, v, widths = rows
+    for row in outs:
+        for i in range(row.size):
+            row[i] = 0.0
+    for n in range(op[8]):
+        first = op[6] + 5 * n
+        noise_rows(u, v, widths, numbers[first : first + 5], keys[op[7] + n], room, outs)
 
 
 @inner_uncounted
@@ -205,7 +221,11 @@ def _step(
         _powers(code, a, b, out)
     elif code <= _CELLS:
         rows = (a, b, (registers[op[4], :size], registers[op[5], :size]))
-        _scattered(op, rows, numbers, keys, room, out)
+        if code == _NOISE and op[9] == WITH_SLOPES:
+            outs = (out, registers[op[10], :size], registers[op[11], :size])
+            _noise_and_slopes(op, rows, numbers, keys, room, outs)
+        else:
+            _scattered(op, rows, numbers, keys, room, out)
     elif code == _RAMP:
         _ramp(a, b, numbers[op[6] : op[6] + 2 * op[8]], op[9], out)
     elif code == _RANDOM:

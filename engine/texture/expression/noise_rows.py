@@ -51,16 +51,8 @@ def _block(key: np.uint32, x: Int, y: Int, sx: float, dx: float, sy: float, dy: 
 
 
 @forced
-def _weights(q: float, width: float, slope: bool) -> tuple[float, float, float, float, float]:
-    """Returns the first of the two blocks that a narrow box about a place sees, and (sum, difference) of weights of
-    both; all in cells."""
-    cell = math.floor(q)
-    t = q - cell - 0.5
-    if slope:
-        w0, w1, w2 = t - 0.5, -2.0 * t, t + 0.5
-    else:
-        bend = width * width * (1.0 / 24.0)
-        w0, w1, w2 = 0.5 * (0.5 - t) * (0.5 - t) + bend, 0.75 - t * t - 2.0 * bend, 0.5 * (0.5 + t) * (0.5 + t) + bend
+def _by_blocks(cell: float, w0: float, w1: float, w2: float) -> tuple[float, float, float, float, float]:
+    """Returns the first of the two blocks that three cells lie in, and (sum, difference) of the weights of both."""
     first = math.floor((cell + 1.0) * 0.5) - 1.0
     even = cell - 2.0 * first - 1.0  # 0 or 1
     odd = 1.0 - even
@@ -70,18 +62,60 @@ def _weights(q: float, width: float, slope: bool) -> tuple[float, float, float, 
 
 
 @forced
+def _weights(q: float, width: float) -> tuple[float, float, float, float, float]:
+    """Returns, as `_by_blocks`, what the cells about a place weigh in the mean over a narrow box."""
+    cell = math.floor(q)
+    t = q - cell - 0.5
+    bend = width * width * (1.0 / 24.0)
+    w0, w2 = 0.5 * (0.5 - t) * (0.5 - t) + bend, 0.5 * (0.5 + t) * (0.5 + t) + bend
+    return _by_blocks(cell, w0, 0.75 - t * t - 2.0 * bend, w2)
+
+
+@forced
+def _slope_weights(q: float) -> tuple[float, float, float, float, float]:
+    """Returns, as `_by_blocks`, what they weigh in the slope there."""
+    cell = math.floor(q)
+    t = q - cell - 0.5
+    return _by_blocks(cell, t - 0.5, -2.0 * t, t + 0.5)
+
+
+@forced
 def _seen(q: float) -> float:
     return q if abs(q) < _FAR else 0.0
 
 
 @forced
-def _at(x: float, y: float, width: float, height: float, key: np.uint32, slope: int) -> float:
-    """Returns the mean of smooth noise over a narrow box, or its slope."""
-    first, sx, dx, tx, ex = _weights(x, width, slope == 1)
-    top, sy, dy, ty, ey = _weights(y, height, slope == 2)
+def _at(x: float, y: float, width: float, height: float, key: np.uint32) -> float:
+    """Returns the mean of smooth noise over a narrow box."""
+    first, sx, dx, tx, ex = _weights(x, width)
+    top, sy, dy, ty, ey = _weights(y, height)
     i, j = np.int32(first), np.int32(top)
     upper = _block(key, i, j, sx, dx, sy, dy) + _block(key, i + 1, j, tx, ex, sy, dy)
     return upper + (_block(key, i, j + 1, sx, dx, ty, ey) + _block(key, i + 1, j + 1, tx, ex, ty, ey))
+
+
+@forced
+def _slopes_at(x: float, y: float, width: float, height: float, key: np.uint32) -> tuple[float, float, float]:
+    """Returns the mean of smooth noise over a narrow box, and its slopes across and down."""
+    first, sx, dx, tx, ex = _weights(x, width)
+    top, sy, dy, ty, ey = _weights(y, height)
+    _, su, du, tu, eu = _slope_weights(x)
+    _, sv, dv, tv, ev = _slope_weights(y)
+    i, j = np.int32(first), np.int32(top)
+    a, b, c = _spread(hash32(key, i, j))
+    value, right, below = (a * sx + c * dx) * dy + b * dx * sy, (a * su + c * du) * dy + b * du * sy, 0.0
+    below = (a * sx + c * dx) * dv + b * dx * sv
+    a, b, c = _spread(hash32(key, i + 1, j))
+    value += (a * tx + c * ex) * dy + b * ex * sy
+    right += (a * tu + c * eu) * dy + b * eu * sy
+    below += (a * tx + c * ex) * dv + b * ex * sv
+    a, b, c = _spread(hash32(key, i, j + 1))
+    value_low, right_low = (a * sx + c * dx) * ey + b * dx * ty, (a * su + c * du) * ey + b * du * ty
+    below += (a * sx + c * dx) * ev + b * dx * tv
+    a, b, c = _spread(hash32(key, i + 1, j + 1))
+    value_low += (a * tx + c * ex) * ey + b * ex * ty
+    right_low += (a * tu + c * eu) * ey + b * eu * ty
+    return value + value_low, right + right_low, below + ((a * tx + c * ex) * ev + b * ex * tv)
 
 
 @inner_uncounted
@@ -93,14 +127,23 @@ def _thin(
     wu, wv = widths
     for i in range(out.size):
         x, y = _seen(u[i] * scale + across), _seen(v[i] * scale + down)
-        out[i] += gain * _at(x, y, wu[i] * scale, wv[i] * scale, key, 0)
+        out[i] += gain * _at(x, y, wu[i] * scale, wv[i] * scale, key)
 
 
 @inner_uncounted
-def _thin_slope(u: np.ndarray, v: np.ndarray, lattice: np.ndarray, key: np.uint32, slope: int, out: np.ndarray) -> None:
+def _thin_slopes(
+    u: np.ndarray, v: np.ndarray, widths: tuple[np.ndarray, np.ndarray], lattice: np.ndarray, key: np.uint32,
+    outs: tuple[np.ndarray, np.ndarray, np.ndarray],
+) -> None:  # fmt: skip
     scale, across, down, gain = lattice[0], lattice[1], lattice[2], lattice[3]
+    wu, wv = widths
+    out, right, below = outs
     for i in range(out.size):
-        out[i] += gain * _at(_seen(u[i] * scale + across), _seen(v[i] * scale + down), 0.0, 0.0, key, slope)
+        x, y = _seen(u[i] * scale + across), _seen(v[i] * scale + down)
+        value, one, other = _slopes_at(x, y, wu[i] * scale, wv[i] * scale, key)
+        out[i] += gain * value
+        right[i] += gain * scale * one
+        below[i] += gain * scale * other
 
 
 @forced
@@ -175,11 +218,11 @@ def _faded(width: float, widest: float) -> float:
 @inner_uncounted
 def _broad(
     u: np.ndarray, v: np.ndarray, widths: tuple[np.ndarray, np.ndarray], lattice: np.ndarray, key: np.uint32,
-    slope: int, room: np.ndarray, out: np.ndarray,
+    room: np.ndarray, out: np.ndarray,
 ) -> None:  # fmt: skip
     scale, across, down, gain, widest = lattice[0], lattice[1], lattice[2], lattice[3], lattice[4]
-    columns = _weigh(u, widths[0], (scale, across), int(slope == 1), room[0], room[2])
-    rows = _weigh(v, widths[1], (scale, down), int(slope == 2), room[1], room[2])
+    columns = _weigh(u, widths[0], (scale, across), 0, room[0], room[2])
+    rows = _weigh(v, widths[1], (scale, down), 0, room[1], room[2])
     total, left, top = room[2, 0], room[0, 0], room[1, 0]
     for i in range(out.size):
         total[i] = 0.0
@@ -194,32 +237,80 @@ def _broad(
         if max(width, height) > _THIN:
             out[i] += gain * _faded(max(width, height), widest) * total[i]
         else:
+            out[i] += gain * _at(_seen(u[i] * scale + across), _seen(v[i] * scale + down), width, height, key)
+
+
+@inner_uncounted
+def _broad_slopes(
+    u: np.ndarray, v: np.ndarray, widths: tuple[np.ndarray, np.ndarray], lattice: np.ndarray, key: np.uint32,
+    room: np.ndarray, outs: tuple[np.ndarray, np.ndarray, np.ndarray],
+) -> None:  # fmt: skip
+    scale, across, down, gain, widest = lattice[0], lattice[1], lattice[2], lattice[3], lattice[4]
+    columns = _weigh(u, widths[0], (scale, across), 0, room[0], room[2])
+    rows = _weigh(v, widths[1], (scale, down), 0, room[1], room[2])
+    _weigh(u, widths[0], (scale, across), 1, room[3], room[2])
+    _weigh(v, widths[1], (scale, down), 1, room[4], room[2])
+    value, right, below, left, top = room[2, 0], room[2, 1], room[2, 2], room[0, 0], room[1, 0]
+    for i in range(value.size):
+        value[i], right[i], below[i] = 0.0, 0.0, 0.0
+    for j in range(rows):
+        sy, dy, sv, dv = room[1, 2 * j + 1], room[1, 2 * j + 2], room[4, 2 * j + 1], room[4, 2 * j + 2]
+        for k in range(columns):
+            sx, dx, su, du = room[0, 2 * k + 1], room[0, 2 * k + 2], room[3, 2 * k + 1], room[3, 2 * k + 2]
+            for i in range(outs[0].size):
+                a, b, c = _spread(hash32(key, np.int32(left[i]) + k, np.int32(top[i]) + j))
+                value[i] += (a * sx[i] + c * dx[i]) * dy[i] + b * dx[i] * sy[i]
+                right[i] += (a * su[i] + c * du[i]) * dy[i] + b * du[i] * sy[i]
+                below[i] += (a * sx[i] + c * dx[i]) * dv[i] + b * dx[i] * sv[i]
+    for i in range(outs[0].size):
+        width, height = widths[0][i] * scale, widths[1][i] * scale
+        part, found = gain * _faded(max(width, height), widest), (value[i], right[i], below[i])
+        if max(width, height) <= _THIN:
             x, y = _seen(u[i] * scale + across), _seen(v[i] * scale + down)
-            out[i] += gain * _at(x, y, width, height, key, slope)
+            part, found = gain, _slopes_at(x, y, width, height, key)
+        outs[0][i] += part * found[0]
+        outs[1][i] += part * scale * found[1]
+        outs[2][i] += part * scale * found[2]
+
+
+@forced
+def _extent(widths: tuple[np.ndarray, np.ndarray], scale: float) -> tuple[float, float]:
+    """Returns the narrowest and the widest sample of a row, in cells."""
+    widest, narrowest = 0.0, 1e30
+    for i in range(widths[0].size):
+        wide = max(widths[0][i], widths[1][i]) * scale
+        widest, narrowest = max(widest, wide), min(narrowest, wide)
+    return narrowest, widest
 
 
 @inner_uncounted
 def noise_row(
     u: np.ndarray, v: np.ndarray, widths: tuple[np.ndarray, np.ndarray], lattice: np.ndarray, key: np.uint32,
-    slope: int, room: np.ndarray, out: np.ndarray,
+    room: np.ndarray, out: np.ndarray,
 ) -> None:  # fmt: skip
-    """Adds one octave of smooth noise; `slope` 1, 2: its slope along u or v, in cells.
+    """Adds one octave of smooth noise.
 
     `lattice`: cells a unit, how far they are shifted across and down, the gain, and how many cells a pixel may span and
-    still see them; `room`: float64 (3, ROOM, n).
+    still see them; `room`: float64 (5, ROOM, n).
     """
-    widest, narrowest = 0.0, 1e30
-    for i in range(out.size):
-        wide = max(widths[0][i], widths[1][i]) * lattice[0]
-        widest, narrowest = max(widest, wide), min(narrowest, wide)
-    if narrowest >= lattice[4]:
-        return
-    if widest > _THIN:
-        _broad(u, v, widths, lattice, key, slope, room, out)
-    elif slope:
-        _thin_slope(u, v, lattice, key, slope, out)
-    else:
+    narrowest, widest = _extent(widths, lattice[0])
+    if widest <= _THIN:
         _thin(u, v, widths, lattice, key, out)
+    elif narrowest < lattice[4]:
+        _broad(u, v, widths, lattice, key, room, out)
+
+
+@inner_uncounted
+def noise_rows(
+    u: np.ndarray, v: np.ndarray, widths: tuple[np.ndarray, np.ndarray], lattice: np.ndarray, key: np.uint32,
+    room: np.ndarray, outs: tuple[np.ndarray, np.ndarray, np.ndarray],
+) -> None:  # fmt: skip
+    """As `noise_row`, and its slopes along u and v, a unit."""
+    narrowest, widest = _extent(widths, lattice[0])
+    if widest <= _THIN:
+        _thin_slopes(u, v, widths, lattice, key, outs)
+    elif narrowest < lattice[4]:
+        _broad_slopes(u, v, widths, lattice, key, room, outs)
 
 
 @forced
@@ -240,7 +331,7 @@ def white_row(
     room: np.ndarray, out: np.ndarray,
 ) -> None:  # fmt: skip
     """Writes a random number of -1/2..1/2 for each cell, one unit wide; `half` 1: only in the upper half of each, and 0
-    elsewhere; `room`: float64 (3, ROOM, n)."""
+    elsewhere; `room`: float64 (5, ROOM, n)."""
     columns = _weigh(u, widths[0], (1.0, 0.0), 2, room[0], room[2])
     rows = _weigh(v, widths[1], (1.0, 0.0), 2 + half, room[1], room[2])
     for i in range(out.size):

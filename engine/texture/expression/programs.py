@@ -44,11 +44,12 @@ class Program:
         registers[: self.constants.size] = self.constants[:, None]
         if pictures is None:
             pictures = np.zeros((1, ys.size, xs.size), np.float32) if _looks(self.steps) else _NONE
-        room = np.empty((3, ROOM, machine.LENGTH))
+        room = np.empty((5, ROOM, machine.LENGTH))
         machine.run(self.steps, self.numbers, self.keys, xs, ys, self.shown, pictures, registers, room, out)
         return out
 
 
+_COLUMNS = 12
 _NONE = np.zeros((1, 1, 1), np.float32)
 
 
@@ -66,25 +67,45 @@ def program(woven: Woven, side: int) -> Program:
     keys: list[int] = []
     free: list[int] = []
     last = _last_uses(graph, needed, shown)
-    count, steps = len(fixed), []
-    for node in needed:
-        if node in rows:
-            continue
-        told = graph.operations[node]
+    count, steps, constant = len(fixed), [], set(fixed)
+    kin = _kin(graph, needed)
+
+    def room() -> int:
+        nonlocal count
         if free:
-            row = free.pop()
-        else:
-            row, count = count, count + 1
-        steps.append(_step(told, row, [rows[part] for part in told.parts], len(numbers), len(keys)))
-        numbers += told.numbers
-        keys += told.key
-        rows[node] = row
-        free += [rows[part] for part in set(told.parts) if last[part] == node and part not in fixed]
+            return free.pop()
+        count += 1
+        return count - 1
+
+    for node in needed:
+        told = graph.operations[node]
+        if node not in rows:
+            alike = kin.get(node, (node,))
+            made = [room() for _ in alike]
+            step = _step(told, made[0], [rows[part] for part in told.parts], len(numbers), len(keys))
+            if len(made) > 1:
+                step[-1] = machine.WITH_SLOPES
+            steps.append([*step, *made[1:], 0, 0][:_COLUMNS])
+            numbers += told.numbers
+            keys += told.key
+            rows |= {one: row for one, row in zip(alike, made, strict=True) if one >= 0}
+            free += [row for one, row in zip(alike, made, strict=True) if one < 0]
+        free += [rows[part] for part in set(told.parts) if last[part] == node and part not in constant]
     constants = np.array([graph.value(node) for node in fixed], np.float64)
     return Program(
-        np.array(steps, np.int32).reshape(-1, 10), np.array([*numbers, 0.0]), np.array([*keys, 0], np.uint32),
+        np.array(steps, np.int32).reshape(-1, _COLUMNS), np.array([*numbers, 0.0]), np.array([*keys, 0], np.uint32),
         constants, max(count, 1), np.array([rows[node] for node in shown], np.int32), side, woven.cost,
     )  # fmt: skip
+
+
+def _kin(graph: Graph, needed: Iterable[int]) -> dict[int, tuple[int, int, int]]:
+    """Returns for each noise whose slopes are needed the nodes of its value and of both, -1 where one is not."""
+    found: dict[tuple[object, ...], list[int]] = {}
+    for node in needed:
+        told = graph.operations[node]
+        if told.code == Code.NOISE:
+            found.setdefault((told.parts, told.numbers, told.key), [-1, -1, -1])[told.slope] = node
+    return {node: (a, b, c) for a, b, c in found.values() if (b, c) != (-1, -1) for node in (a, b, c) if node >= 0}
 
 
 def _last_uses(graph: Graph, needed: Iterable[int], shown: Iterable[int]) -> dict[int, int]:

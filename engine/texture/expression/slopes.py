@@ -62,18 +62,9 @@ def _scattered(graph: Graph, node: int, told: Operation, slopes: list[int]) -> i
     total = graph.constant(0.0)
     for axis in (0, 1):
         if graph.value(slopes[axis]) != 0.0:
-            own = graph.node(
-                told.code, *told.parts, numbers=_sloping(told), key=told.key, kind=told.kind, slope=axis + 1
-            )
+            own = graph.node(told.code, *told.parts, numbers=told.numbers, key=told.key, kind=told.kind, slope=axis + 1)
             total = graph.add(total, graph.mul(own, slopes[axis]))
     return total
-
-
-def _sloping(told: Operation) -> tuple[float, ...]:
-    """Returns the numbers of an operation that gives slopes a unit: noise gives them a cell."""
-    if told.code != Code.NOISE:
-        return told.numbers
-    return tuple(n * told.numbers[i - 3] if i % 5 == 3 else n for i, n in enumerate(told.numbers))
 
 
 def _ramp(graph: Graph, node: int, told: Operation, slopes: list[int]) -> int:
