@@ -17,7 +17,7 @@ def draw_dock_menu(desk: Desk, name: str, asked: bool) -> None:
     if not imgui.begin_popup("panel menu"):
         return
     told = desk.arranged.now
-    imgui.text_disabled(DOCKS[name].title)
+    said.text_disabled(DOCKS[name].title)
     for side in COLUMNS:
         if told.side(name) != side and _row(f"To the {side}", f"Into the column on the {side}"):
             desk.arranged.now = docked(told, name, side)

@@ -8,6 +8,7 @@ from app import icons
 from app.desk.arranging.arrangement import COLUMNS, DOCKS, Arrangement, docked, floated, shown_or_hidden, sides_swapped
 from app.desk.arranging.kept_arrangement import LONGEST_NAME, MOST_WORKSPACES
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.arranging.dock_menu import float_box, neighbour, stepped
 from app.panels.controls import widgets as w
 
@@ -47,7 +48,7 @@ class WorkspacesDialog:
     def _workspaces(self, desk: Desk) -> None:
         arranged, em, side = desk.arranged, imgui.get_font_size(), imgui.get_frame_height()
         if not arranged.workspaces:
-            imgui.text_disabled("None yet: arrange the panels, and give that a name.")
+            said.text_disabled("None yet: arrange the panels, and give that a name.")
         high = min(len(arranged.workspaces), 6) * imgui.get_frame_height_with_spacing()
         if arranged.workspaces:
             imgui.begin_child("kept workspaces", ImVec2(_WIDE * em, high))
@@ -67,7 +68,7 @@ class WorkspacesDialog:
             imgui.end_child()
         imgui.set_next_item_width(14 * em)
         flags = imgui.InputTextFlags_.enter_returns_true
-        entered, self._name = imgui.input_text_with_hint("##workspace", "Name", self._name[:LONGEST_NAME], flags)
+        entered, self._name = said.input_text_with_hint("##workspace", "Name", self._name[:LONGEST_NAME], flags)
         w.named("workspace name")
         w.tooltip("What this arrangement is to be called")
         imgui.same_line()
@@ -100,13 +101,13 @@ def _panel_row(desk: Desk, name: str) -> None:
 
 def draw_workspaces(desk: Desk) -> None:
     """Draws the menu of the workspaces into the present menu."""
-    opened = imgui.begin_menu("Workspaces", bool(desk.arranged.workspaces))
+    opened = said.begin_menu("Workspaces", bool(desk.arranged.workspaces))
     w.named("Workspaces")
     w.tooltip("Arrangements of panels under names: View > Panels and workspaces keeps them")
     if not opened:
         return
     for name, told in sorted(desk.arranged.workspaces.items()):
-        if imgui.menu_item(f"{name}##workspace", "", told == desk.arranged.now)[0]:
+        if said.menu_item(f"{name}##workspace", "", told == desk.arranged.now)[0]:
             desk.arranged.now, desk.panels = told, True
         w.named(name)
         w.tooltip("Arrange the panels so")

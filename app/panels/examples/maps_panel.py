@@ -18,6 +18,7 @@ from app.desk.desk import Desk
 from app.desk.examples import chart_state, chart_use, chart_work
 from app.desk.examples.chart_state import ChartState, strokes_of
 from app.desk.examples.charts import chart_of
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.examples.region_picture import draw_picture
@@ -79,9 +80,9 @@ class MapsPanel:
             desk.examples.chart = chart = ChartState(picked)
         path = chart_of(maps.get(chart.name)).get("path")
         imgui.push_text_wrap_pos(0.0)
-        imgui.text_disabled(_RUNS if chart.name == ORIENTATION else _SHADES)
+        said.text_disabled(_RUNS if chart.name == ORIENTATION else _SHADES)
         if isinstance(path, str):
-            imgui.text_disabled(f"Over {Path(path).name}")
+            said.text_disabled(f"Over {Path(path).name}")
         imgui.pop_text_wrap_pos()
         if chart.name != ORIENTATION:
             hint = "What a stroke tells: dark is 0, light is 100 %"
