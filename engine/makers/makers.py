@@ -27,8 +27,9 @@ from engine.painting.layering.painting_member import A_FILE, A_PICTURE, HOLDS
 from engine.painting.textures import Around, Texture
 from engine.painting.times import untimed
 from engine.strokes import example_textures
+from engine.texture.expression.library.bundled_texts import like_in_library, written_library
 from engine.texture.image import ImageSource
-from engine.texture.table import DEFINED, KINDS
+from engine.texture.table import DEFINED, EXPRESSION, KINDS
 
 NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one is repeated
 
@@ -49,6 +50,17 @@ def define(command: DefineTexture, root: Group, around: Around) -> Texture:
 
 def _procedural(command: DefineTexture, root: Group, around: Around) -> Texture:
     return Texture(command.maker, command.arguments)
+
+
+def _written(command: DefineTexture, root: Group, around: Around) -> Texture:
+    """Returns a written texture; one that comes along is known by its name, and keeps its text from then on."""
+    told = command.arguments
+    if "bundled" in told and "text" not in told:
+        name = Fields(told, "").text("bundled", cap=64)
+        if name not in written_library():
+            raise FieldError("bundled", f"{name!a}", like_in_library(name))
+        told = told.set("text", written_library()[name].text)
+    return Texture(command.maker, told)
 
 
 def _image(command: DefineTexture, root: Group, around: Around) -> Texture:
@@ -130,6 +142,7 @@ _Maker = Callable[[DefineTexture, Group, Around], Texture]
 MAKERS: dict[str, _Maker] = {
     **{name: _procedural for name, row in KINDS.items() if not row.pictured},
     **dict.fromkeys(DEFINED, _procedural),
+    EXPRESSION: _written,
     "image": _image,
     LEARN: _learnt,
     "canvas": _canvas,

@@ -78,9 +78,11 @@ class Around:
 
 
 def recorded(command: DefineTexture, texture: Texture) -> DefineTexture:
-    """Returns the command with what the maker found out about its picture, and the sha by which that is known again."""
+    """Returns the command with what the maker found out about its picture, and the sha by which that is known again; of
+    a written texture, with its text."""
     if texture.source is None:
-        return command
+        text = texture.parameters.get("text")
+        return command if text is None else replace(command, arguments=command.arguments.set("text", text))
     found = {name: value for name, value in texture.parameters.items() if name not in command.arguments}
     if texture.mask is not None:
         found["mask_sha"] = texture.mask.sha

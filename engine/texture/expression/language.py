@@ -15,10 +15,11 @@ from functools import lru_cache
 from engine.texture.expression.arithmetic_words import ARITHMETIC, FUNCTIONS_OF_NUMBERS
 from engine.texture.expression.colour_words import COLOUR_WORDS
 from engine.texture.expression.graph import Graph, cost_of
+from engine.texture.expression.library.named_words import named_texture
 from engine.texture.expression.noise_words import NOISE_WORDS
 from engine.texture.expression.pattern_words import PATTERN_WORDS
 from engine.texture.expression.shape_words import SHAPE_WORDS
-from engine.texture.expression.weaving import Rule, Setting, Value, Weaver
+from engine.texture.expression.weaving import Rule, Setting, Value, Weaver, last_line
 from engine.texture.expression.written import WrittenText, parse_text, words
 
 COST_MOST = 50_000.0  # nanoseconds a pixel, about: a texture that takes more is refused
@@ -45,12 +46,11 @@ def read(text: str) -> WrittenText:
     return parse_text(text, _WORDS)
 
 
+_RULES["texture"] = named_texture(read)
+
+
 def weave(written: WrittenText, setting: Setting, line: int = -1) -> Woven:
     """Returns what a line, usually the last one, is.  WrittenError tells what is wrong with it."""
     weaver = Weaver(written, setting, _RULES)
-    number = line % len(written.lines)
-    for before in range(number):  # each at its place, so that none is reached through all those before it
-        weaver.line(before, weaver.here)
-        weaver.line(before, weaver.here.point)
-    value = weaver.line(number, weaver.here)
+    value = last_line(weaver, weaver.here, line)
     return Woven(weaver.graph, value, cost_of(weaver.graph, value.nodes) * value.side**2)

@@ -84,12 +84,12 @@ class Weaver:
     """Asks for the parts of one text; remembers what it was asked for."""
 
     def __init__(self, written: WrittenText, setting: Setting, rules: Mapping[str, Rule]) -> None:
-        self.written, self.setting, self._rules = written, setting, rules
+        self.written, self.setting, self.rules = written, setting, rules
         self.graph = Graph()
         self.slopes, self.spreads = Slopes(self.graph), Spreads(self.graph, setting.width)
         self._lines = {line.name: n for n, line in enumerate(written.lines)}
         self._known: dict[tuple[int, Env], Value] = {}
-        self._deep = 0
+        self.deep = 0
         zero = self.graph.constant(0.0)
         self.here = Env(self.graph.x, self.graph.y, (zero, zero))
 
@@ -105,17 +105,17 @@ class Weaver:
 
     def value(self, term: Term, env: Env) -> Value:
         """Returns what a part of the text comes to.  WrittenError if it is no such thing, or too much."""
-        rule = self._rules.get(term.operation) or _OWN.get(term.operation)
+        rule = self.rules.get(term.operation) or _OWN.get(term.operation)
         assert rule is not None
-        if self._deep >= NESTED_MOST:
+        if self.deep >= NESTED_MOST:
             self.refuse(term, "one level more", f"{NESTED_MOST} levels at most, those of the lines before counted in")
-        self._deep += 1
+        self.deep += 1
         try:
             return rule(self, term, env)
         except TooLarge:
             self.refuse(term, "too much at once", "fewer or shorter lines: each repeats all that it is made of")
         finally:
-            self._deep -= 1
+            self.deep -= 1
 
     def refuse(self, term: Term, found: str, expected: str) -> NoReturn:
         """Raises a mistake of a part."""
@@ -207,6 +207,24 @@ def aslant(weaver: Weaver, node: int, mean: Callable[[int, int], int]) -> int:
     points = [weaver.graph.plus(node, way * less) for way in (-_GAUSS, _GAUSS)]
     halves = [mean(point, weaver.graph.most(weaver.graph.constant(more), narrow)) for point in points]
     return weaver.graph.times(weaver.graph.add(*halves), 0.5)
+
+
+def woven_within(weaver: Weaver, written: WrittenText) -> Weaver:
+    """Returns one that asks for the parts of another text, in this one's graph, its sliders as they usually are."""
+    other = Weaver(written, replace(weaver.setting, values={}), weaver.rules)
+    other.graph, other.slopes, other.spreads = weaver.graph, weaver.slopes, weaver.spreads
+    other.here, other.deep = weaver.here, weaver.deep
+    return other
+
+
+def last_line(weaver: Weaver, env: Env, number: int = -1) -> Value:
+    """Returns what a line, usually the last one, is at a place; those before it first, that none is reached through
+    all of them."""
+    number %= len(weaver.written.lines)
+    for before in range(number):
+        weaver.line(before, env)
+        weaver.line(before, env.point)
+    return weaver.line(number, env)
 
 
 def premultiplied(colour: str) -> tuple[float, float, float, float]:

@@ -1,0 +1,45 @@
+"""The written textures that come along: a text each, palettes/written/NAME.txt, whose first line tells what it is.
+
+A text that is part of a release is never changed: paintings and recordings may name it, and keep their pixels.  What is
+better has another name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from types import MappingProxyType
+
+from engine.texture.expression.written import close_to
+
+_TEXTS = Path(__file__).resolve().parents[4] / "palettes" / "written"
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryText:
+    """`title`: as it is called in the window; `about`: what its first line says, title and all."""
+
+    title: str
+    about: str
+    text: str
+
+
+@lru_cache(maxsize=1)
+def written_library() -> Mapping[str, LibraryText]:
+    """Returns all texts that come along, by name."""
+    return MappingProxyType({path.stem: _read(path) for path in sorted(_TEXTS.glob("*.txt"))})
+
+
+def like_in_library(name: str) -> str:
+    """Returns what is expected in place of a name that the library has not: one like it."""
+    like = close_to(name, list(written_library()))
+    return "the name of a written texture that comes along" + (f", such as {like}" if like else "")
+
+
+def _read(path: Path) -> LibraryText:
+    text = path.read_text("utf-8")
+    about = text.partition("\n")[0].removeprefix("//").strip()
+    title = about.partition(":")[0].partition(",")[0].strip()
+    return LibraryText(title, about, text)

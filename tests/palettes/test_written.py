@@ -1,0 +1,53 @@
+"""The written textures that come along: each is whole, is right at every level, and is a brush of the window."""
+
+import numpy as np
+import pytest
+
+from app.desk.holding.written_brushes import GROUP, written_brushes
+from engine.checks.field_error import FieldError
+from engine.numeric.address import Rect
+from engine.painting.commands import parse
+from engine.painting.value import Painting, Refusal
+from engine.session.apply import apply
+from engine.session.session import Session
+from engine.texture.expression.defined import expression
+from engine.texture.expression.library.bundled_texts import written_library
+
+NAMES = list(written_library())
+DEFINED = {"do": "texture", "name": "wall", "maker": "expression"}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_is_whole(name):
+    told = written_library()[name]
+    assert told.about[:1].isupper()
+    assert len(told.about) <= 80
+    made = expression({"text": told.text}, -4)
+    for level in (0, 10):
+        seen = made.appearance(level, Rect.at(77 << level, 50 << level, 48, 48))
+        assert np.isfinite(seen).all()
+        assert seen.std() > 0.004, level
+
+
+def test_they_are_brushes_of_a_group():
+    found = written_brushes()
+    assert {preset.group for preset in found} == {GROUP}
+    assert len({preset.name for preset in found}) == len(found) == len(NAMES)
+
+
+def test_a_recording_names_one_and_keeps_its_text():
+    session = Session(Painting())
+    session.do(parse({**DEFINED, "bundled": "red-brick"}))
+    (command,) = session.log
+    assert command.arguments["text"] == written_library()["red-brick"].text
+    with pytest.raises(Refusal, match="red-brick"):
+        apply(Painting(), parse({**DEFINED, "bundled": "red-brik"}))
+
+
+def test_a_text_names_others_where_they_are_or_elsewhere():
+    rect = Rect.at(30, 40, 20, 20)
+    plain = expression({"text": written_library()["snow"].text}, 0).appearance(2, rect)
+    assert (expression({"text": '"snow"()'}, 0).appearance(2, rect) == plain).all()
+    assert (expression({"text": 'a = x; "snow"(a, y)'}, 0).appearance(2, rect) == plain).all()
+    with pytest.raises(FieldError, match="such as snow"):
+        expression({"text": '"snou"(x, y)'}, 0)
