@@ -89,7 +89,7 @@ def test_the_machine_does_what_the_operations_say(text, width):
 
 SLOPED = (
     "noise(x, y)", "fbm(x*2, y*3, 5)", "cells(x*2, y)", "cells_edge(x*2, y*2)", "sin(x*3)*cos(y) + x*y",
-    "exp(x)/(y + 3)", "pow(x + 2, 1.7)", "atan2(y + 3, x)", "distance(x + 2, y + 2)", 
+    "exp(x)/(y + 3)", "pow(x + 2, 1.7)", "atan2(y + 3, x)", "distance(x + 2, y + 2)",
     "log(x + 3) + sqrt(y + 2) + tan(x/4)",
     "warp(noise(x, y), y, x)",
     "curve(x, -3, 0, 0, 1, 3, 5)", "ridged(x, y, 3)", "rotate(noise(x*2, y), 33)",

@@ -3,7 +3,6 @@ against the next finer one, reduced: the shimmer test.  Errors are rms, in 1/255
 
 import numpy as np
 import pytest
-from engine.texture.expression.told import expression
 
 from engine.numeric.address import Rect
 from engine.texture.expression.defined import expression
