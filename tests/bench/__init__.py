@@ -50,6 +50,7 @@ BENCHES = {
     "masks": "masks found by themselves on twenty composites: overlap, error of alpha, seconds of a correction",
     "learnt": "detail below a picture's own pixels: against the true octave, codes and expansion; ns a pixel",
     "example": "painting with example textures: preview, refinement, threads, and G'MIC's synthesis",
+    "seams": "examples grown without seams: rims, repeats of level strokes, narrow strokes, against the method before",
     "stroke": "a stroke of 1,000 points, 10,000 px over 2000 x 2000, to pixels at all levels; beside libmypaint",
     "copies": "a stroke drawn sixteen times in one step, against the same sixteen strokes",
     "flooding": "the region of like colour that a pixel lies in, with and without gaps closed, beside labelling it",

@@ -25,6 +25,7 @@ from engine.files.png_writer import write_png
 from engine.numeric.address import Rect
 from engine.texture.example import scanline, show
 from engine.texture.example.exemplar import Exemplar, analysed
+from engine.texture.example.parameters import NEW, Parameters
 from engine.texture.example.region import Region, empty, painted, refined, refining
 from engine.texture.table import instance
 
@@ -45,7 +46,8 @@ def measure(small: bool = False) -> Iterator[Figure | Skipped]:
         pixels = _rock(side)
         taken = _processor(repeats, lambda pixels=pixels: analysed(pixels))  # type: ignore[misc]
         yield _within(f"analysis, {side} x {side}", taken, ANALYSIS, slow)
-        yield from _painting(analysed(pixels), side, repeats, slow)
+        for parameters in (Parameters(), NEW):
+            yield from _painting(analysed(pixels, None, parameters), side, repeats, slow)
     exemplar = analysed(pixels)
     yield _against_scanline(exemplar, 48 if small else 128, repeats)
     yield _threads(exemplar, FILL // 8 if small else FILL, repeats)
@@ -90,20 +92,21 @@ def _dab(region: Region, x: int) -> Region:
 
 def _painting(exemplar: Exemplar, side: int, repeats: int, slow: float) -> Iterator[Figure]:
     start, coarsest, small = empty(exemplar, 1), len(exemplar.levels) - 1, repeats == 1
+    how = ", without seams" if exemplar.seamless else ""
     preview = _processor(3 * repeats, lambda: refined(_dab(start, 5), coarsest))
     note = f"refined wholly: {_processor(repeats, lambda: refined(_dab(start, 5))) * 1e3:.1f} ms"
-    yield _within(f"preview of a dab, {side}", preview, PREVIEW, slow, note)
+    yield _within(f"preview of a dab, {side}{how}", preview, PREVIEW, slow, note)
     growing, times = refined(_dab(start, 0)), []
     for x in range(SPACING, 20 if small else 600, SPACING):
         times.append(_processor(2, lambda x=x, growing=growing: refined(_dab(growing, x))))  # type: ignore[misc]
         growing = refined(_dab(growing, x))
     last = float(np.quantile(times, 0.95))
     note = f"median of a stroke of {len(times)} dabs, {SPACING} px apart; 95 % within {last * 1e3:.1f} ms"
-    yield _within(f"a dab on a growing stroke, {side}", statistics.median(times), DAB, slow, note)
+    yield _within(f"a dab on a growing stroke, {side}{how}", statistics.median(times), DAB, slow, note)
     mask = _stroke(60 if small else 600)
     rect = Rect.at(0, 0, mask.shape[1], mask.shape[0])
     taken = _processor(repeats, lambda: refined(painted(start, rect, mask)))
-    yield _within(f"a stroke at once, {side}", taken, STROKE, slow, f"{int(mask.sum()):,} pixels")
+    yield _within(f"a stroke at once, {side}{how}", taken, STROKE, slow, f"{int(mask.sum()):,} pixels")
 
 
 def _stroke(length: int) -> np.ndarray:
@@ -195,7 +198,7 @@ def _against_gmic(repeats: int, small: bool) -> Iterator[Figure | Skipped]:
 def filling(pixels: np.ndarray, side: int) -> Callable[[], np.ndarray]:
     """The work of filling a square of so many pixels with a picture: RGBA (side, side, 4)."""
     mask, rect = np.ones((side, side), bool), Rect(0, 0, side, side)
-    return lambda: show.pixels(refined(painted(empty(analysed(pixels), 1), rect, mask)), rect)
+    return lambda: show.pixels(refined(painted(empty(analysed(pixels, None, NEW), 1), rect, mask)), rect)
 
 
 def _child(words: list[str]) -> float:

@@ -1,6 +1,6 @@
 """Where strokes are narrow: there an example whose rim begins faint would show nothing but that.
 
-A pixel counts as narrow where no square of some pixels lies wholly inside around it.  Its shape is then widened, by as
+A pixel counts as narrow where no square of some pixels lies wholly inside near it.  Its shape is then widened, by as
 much as the example's rim is faint, so that it is grown as if it lay so much deeper.
 """
 
@@ -17,6 +17,8 @@ from engine.texture.example.region_window import Window
 
 _NARROW, _SLIM = 12, 20  # pixels: below the first a shape is widened wholly, below the second by half
 _RIM = np.uint64(1 << SIDE * SIDE)  # set in widened shapes
+_BESIDE = 2  # pixels from one at an outline to where such a square would be seen whole
+_SIGHT = RADIUS + _BESIDE
 _SEEN = 2  # level at which finer ones look, too
 _NOT_LAST = np.uint64(sum(1 << SIDE * y + x for y in range(SIDE) for x in range(SIDE - 1)))  # column
 
@@ -29,7 +31,7 @@ def wider(region: Region, n: int, amount: int = 2) -> int:
 
 def narrow_reach(region: Region, n: int) -> int:
     """Tells how far from a pixel that joins or leaves a region others may become narrow at a level."""
-    return RADIUS + 1 << seen_level(region, n) - n if wider(region, n) else 0
+    return _SIGHT + 1 << seen_level(region, n) - n if wider(region, n) else 0
 
 
 def newly_narrow(region: Region, n: int, masks: Rect) -> Rect:
@@ -60,7 +62,7 @@ def _amounts(region: Region, n: int, rect: Rect) -> tuple[np.ndarray, np.ndarray
     """Returns how narrow each pixel is, now and when the level was refined: 0, 1 or 2, uint8 (h, w)."""
     seen = seen_level(region, n)
     up = seen - n
-    wide = rect.zoomed(-up).grown(RADIUS)
+    wide = rect.zoomed(-up).grown(_SIGHT)
     out = np.zeros((2, rect.height, rect.width), np.uint8)
     for masks, amounts in zip((region.masks[seen], region.levels[n].seen), out, strict=True):
         held = tiles.gathered(masks, wide, np.zeros((1, wide.height, wide.width), np.uint8))[0]
@@ -74,14 +76,20 @@ def _amounts(region: Region, n: int, rect: Rect) -> tuple[np.ndarray, np.ndarray
 def _narrow(mask: Array, sides: tuple[Int, Int], offset: tuple[Int, Int], up: Int, out: Array) -> None:
     """Writes how narrow the pixels are `up` levels below those of a mask, (h, w), the first of which begins `offset`
     pixels before."""
-    bits, amounts = np.zeros(mask.shape, np.uint64), np.zeros(mask.shape, np.uint8)
+    bits, held, amounts = (
+        np.zeros(mask.shape, np.uint64),
+        np.zeros(mask.shape, np.uint8),
+        np.zeros(mask.shape, np.uint8),
+    )
     region_bits(mask, bits)
     for y in range(RADIUS, mask.shape[0] - RADIUS):
         for x in range(RADIUS, mask.shape[1] - RADIUS):
-            if mask[y, x] and bits[y, x] != FULL:
-                amounts[y, x] = np.uint8(not _has_square(bits[y, x], sides[0])) + np.uint8(
-                    not _has_square(bits[y, x], sides[1])
-                )
+            if mask[y, x] and _has_square(bits[y, x], sides[0]):
+                held[y, x] = 2 if _has_square(bits[y, x], sides[1]) else 1
+    for y in range(_SIGHT, mask.shape[0] - _SIGHT):
+        for x in range(_SIGHT, mask.shape[1] - _SIGHT):
+            if mask[y, x]:
+                amounts[y, x] = 2 - held[y - _BESIDE : y + _BESIDE + 1, x - _BESIDE : x + _BESIDE + 1].max()
     for y in range(out.shape[0]):
         for x in range(out.shape[1]):
             out[y, x] = amounts[(y + offset[0]) >> up, (x + offset[1]) >> up]
