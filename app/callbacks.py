@@ -58,7 +58,7 @@ class Callbacks:
         if self._router.desk.keys.listening and action != glfw.RELEASE:
             self._keys.append((key, scancode, action, mods))
             return
-        typing = imgui.get_io().want_text_input or self._layout.dialogs.open
+        typing = imgui.get_io().want_text_input or self._layout.dialogs.open or self._router.desk.keys.panel is not None
         if key != glfw.KEY_TAB or typing:  # Tab would put the focus into a field, which then took all keys
             backends.glfw_key_callback(self._address, key, scancode, action, mods)
         self._keys.append((key, scancode, action, mods))

@@ -112,6 +112,7 @@ class Router:
             self._field_until, self._field_frames = time.monotonic() + FOCUSING, TAKEN_IN
             imgui.get_io().add_mouse_button_event(_IMGUI_BUTTON[event.button], True)
             return
+        self.desk.keys.panel = None
         if not self.layout.dialogs.open:
             imgui.set_window_focus(None)
             self.desk.start.leave()
@@ -177,6 +178,7 @@ class Router:
 
     def key(self, key: int, scancode: int, action: int, mods: int) -> None:
         """Takes one key event; those that a text field or a dialog wants are left to it."""
+        self.desk.keys.stir()
         if action == glfw.RELEASE:
             self._keys.discard(key)
             _tell_held(self.desk, self._keys)
@@ -200,8 +202,13 @@ class Router:
         if keys == "Escape" and self.desk.start.shown and not dialog:
             self.desk.start.leave()
             return
+        if keys == "Escape" and self.desk.keys.panel is not None and not dialog:
+            self.desk.keys.panel = None if not imgui.get_io().want_text_input else self.desk.keys.panel
+            return
         busy = _busy(self.desk, self.layout)
         found = by_key(keys)
+        if self.desk.keys.panel is not None and found is not ACTIONS["panel_keys"]:
+            busy = True  # keys are the panel's
         if not busy and found is not None and self.layout.strip.takes(self.desk, found):
             return
         if found is not None and keys in _NUMBERS and not busy and field_in_sight():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import time
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -91,6 +90,11 @@ def _look(screen: float, preferences: Preferences) -> tuple[float, float, str]:
     return wished
 
 
+def _screen_scale(handle: Any) -> float:
+    """Returns the pixels per point of the screen that a window is on."""
+    return max(0.75, float(glfw.get_window_content_scale(handle)[0]))
+
+
 def _wished(screen: float, preferences: Preferences) -> tuple[float, float, str]:
     return screen * preferences.scale, preferences.font_size, preferences.look
 
@@ -121,7 +125,7 @@ class Window:
         io.set_ini_filename("")
         io.config_flags |= imgui.ConfigFlags_.no_mouse_cursor_change
         io.mouse_double_click_time, io.mouse_single_click_delay = DOUBLE, 1.1 * DOUBLE
-        self._screen_scale = scale = max(0.75, glfw.get_window_content_scale(handle)[0])
+        scale = _screen_scale(handle)
         theme.load_fonts(io)
         preferences = read_preferences(preferences_file())[0]  # the engine tells what is wrong with them
         self._look = _look(scale, preferences)
@@ -132,7 +136,10 @@ class Window:
         self.desk.graphics = f"{self.ctx.info['GL_RENDERER']}, {self.ctx.info['GL_VERSION']}"
         self._guard = FaultGuard(lambda: self.desk.told(_FAULT))
         self._faults = _lay_kept(self.desk)
-        self._remembering, self._views = Remembering(partial(box_of_window, handle, scale), STRIPS), ViewsWatched()
+        self._remembering, self._views = (
+            Remembering(lambda: box_of_window(handle, _screen_scale(handle)), STRIPS),
+            ViewsWatched(),
+        )
         self.layout = Layout(self._guard)
         self.router = Router(self.desk, self.layout)
         self.pointers = Pointers(handle)
@@ -243,7 +250,8 @@ class Window:
             exposed, self._callbacks.exposed = self._callbacks.exposed, False
             moving = self._drawing.draw(desk, now, self.gallery.fresh(), exposed) or moving
         self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None)
-        return moving or len(imgui.get_current_context().input_events_queue) > 0  # it takes one key a frame
+        waits = len(imgui.get_current_context().input_events_queue) > 0  # it takes one key a frame
+        return self.desk.keys.stirred() or moving or waits
 
     def _catch_up(self, scancode: int | None = None) -> None:
         """Sees to keys that GLFW has told, and to what the pointer did after them: before the key that it tells of now,
@@ -260,8 +268,9 @@ class Window:
 
     def _panels(self) -> None:
         preferences = self.desk.preferred.now
-        if _wished(self._screen_scale, preferences) != self._look:
-            self._look = _look(self._screen_scale, preferences)
+        scale = _screen_scale(self.handle)  # another one, once the window is on another screen
+        if _wished(scale, preferences) != self._look:
+            self._look = _look(scale, preferences)
             self.desk.scale = self._look[0]
         backends.opengl3_new_frame()
         backends.glfw_new_frame()

@@ -30,6 +30,11 @@ def _swap_sides(desk: Desk) -> None:
     desk.arranged.now = sides_swapped(desk.arranged.now)
 
 
+def _next_panel(desk: Desk) -> None:
+    desk.panels = True
+    desk.keys.panel, desk.keys.turning = 0 if desk.keys.panel is None else desk.keys.panel + 1, True
+
+
 def _as_at_first(desk: Desk) -> None:
     desk.arranged.now = Arrangement()
 
@@ -39,6 +44,15 @@ PANEL_ACTIONS: dict[str, Action] = {
         f"panel {name}": Action(f"Panel: {dock.title}", _MENU, (), dock.hint, _toggles(name), always, _seen(name))
         for name, dock in DOCKS.items()
     },
+    "panel_keys": Action(
+        "Panels by keyboard",
+        "View",
+        ("F6",),
+        "Arrows and Tab go through a panel, Space presses; F6 to the next one, Escape back to the canvas",
+        _next_panel,
+        always,
+        lambda desk: desk.keys.panel is not None,
+    ),
     "swap_sides": Action("Swap the sides", _MENU, (), "The left column to the right, for left-handers", _swap_sides),
     "panels_reset": Action("As at first", _MENU, (), "All panels where they come, as wide and high", _as_at_first),
     "workspaces": Action(

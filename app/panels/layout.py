@@ -32,7 +32,8 @@ from app.panels.strip import StripPanel
 NARROW = 640.0  # points: a strip needs more
 HIGH = 0.62  # of the window's height: a strip takes no more
 _FIXED = (
-    imgui.WindowFlags_.no_title_bar
+    imgui.WindowFlags_.no_focus_on_appearing
+    | imgui.WindowFlags_.no_title_bar
     | imgui.WindowFlags_.no_resize
     | imgui.WindowFlags_.no_move
     | imgui.WindowFlags_.no_saved_settings
@@ -97,6 +98,7 @@ class Layout:
     def draw(self, desk: Desk, pointer_name: str) -> None:
         """Draws it into the present window."""
         self._covered = []
+        _take_keys(desk)
         top = self._menu(desk)
         bottom = self._status(desk, pointer_name) if desk.panels or desk.notices.rows else 0.0
         left, right, opened = 0.0, 0.0, desk.strip
@@ -208,3 +210,18 @@ class Layout:
         imgui.pop_style_var(2)
         imgui.pop_style_color()
         return height
+
+
+def _take_keys(desk: Desk) -> None:
+    """Has keys go through the panels while one is chosen by them, and chooses the next one."""
+    io, nav = imgui.get_io(), int(imgui.ConfigFlags_.nav_enable_keyboard)
+    on = desk.keys.panel is not None
+    io.config_nav_cursor_visible_always = on
+    io.config_flags = io.config_flags | nav if on else io.config_flags & ~nav
+    if desk.keys.turning and desk.keys.panel is not None:
+        told = desk.arranged.now
+        floating = [f"{name}##floating" for name in sorted(told.floating) if name not in told.hidden]
+        names = [*told.column("left"), *told.column("right"), *floating, *(["strip"] if desk.strip else [])]
+        if names:
+            imgui.set_window_focus(names[desk.keys.panel % len(names)])
+    desk.keys.turning = False

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import imgui_bundle
 from imgui_bundle import ImVec2, ImVec4, imgui
@@ -63,7 +62,7 @@ def packed(colour: tuple[float, ...], alpha: float = 1.0) -> int:
     return imgui.color_convert_float4_to_u32(vec(colour, alpha))
 
 
-def load_fonts(io: Any) -> None:
+def load_fonts(io: imgui.IO) -> None:
     """Loads text and icons as one font; glyphs are rasterised when first shown, at any size."""
     io.fonts.add_font_from_file_ttf(str(FONTS / "Roboto" / "Roboto-Regular.ttf"), FONT_SIZE)
     icons = imgui.ImFontConfig()

@@ -30,7 +30,7 @@ def test_nothing_moves_under_the_pointer_and_panels_lie_where_they_were_put(prog
     x, y = app.at("Layers")
     app.drag((1060, y), (700, 300))
     app.do("mouseup", 1)
-    assert app.box("Layers")[0] < 760
+    app.wait_until(lambda: app.box("Layers")[0] < 760, "it does not float")
     app.move_to((700, 300))
     app.do("click", 3)
     app.click("To the left")
@@ -62,3 +62,7 @@ def test_nothing_moves_under_the_pointer_and_panels_lie_where_they_were_put(prog
     app.process.wait(30)
     app = program()
     app.wait_until(lambda: app.box("Layers")[0] < 240, "the next start does not remember")
+    app.keys("F6", "Right", "Right", "Right", "Return")  # the tools by keys: the third picks colours
+    app.box("What is seen")
+    app.keys("Escape", "e")
+    app.until_gone("What is seen")

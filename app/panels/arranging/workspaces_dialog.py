@@ -5,7 +5,18 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import icons
-from app.desk.arranging.arrangement import COLUMNS, DOCKS, Arrangement, docked, floated, shown_or_hidden, sides_swapped
+from app.desk.arranging.arrangement import (
+    COLUMNS,
+    DOCKS,
+    NARROWEST_COLUMN,
+    WIDEST_COLUMN,
+    Arrangement,
+    docked,
+    floated,
+    shown_or_hidden,
+    sides_swapped,
+    widened,
+)
 from app.desk.arranging.kept_arrangement import LONGEST_NAME, MOST_WORKSPACES
 from app.desk.desk import Desk
 from app.language import said
@@ -39,8 +50,15 @@ class WorkspacesDialog:
         imgui.same_line()
         if w.text_button("As at first", "All panels where they come, as wide and high", width=em * 9):
             desk.arranged.now = Arrangement()
+        for n, side in enumerate(COLUMNS):
+            told, ends = desk.arranged.now, (NARROWEST_COLUMN, WIDEST_COLUMN)
+            hint = f"How wide the column on the {side} is"
+            changed, wide = w.slider(f"Width on the {side}", told.widths[n], ends, hint, form="%.0f points")
+            if changed:
+                desk.arranged.now = widened(told, side, wide)
         imgui.spacing()
-        imgui.separator_text("Workspaces")
+        imgui.separator()
+        said.text_disabled("Workspaces")
         self._workspaces(desk)
         imgui.spacing()
         return not w.accent_button("Close", "All of it is kept", width=em * 7)

@@ -187,16 +187,16 @@ class BrushPanel:
                 desk.hand.change(**setting)
 
         draw_steadying(desk)
-        draw_thickness(desk)
         _draw_fixed(desk)
+        draw_thickness(desk)
 
 
 def _draw_fixed(desk: Desk) -> None:
-    """Draws what the brush's textures lie still on, where it has any that may move."""
+    """Draws what the brush's textures lie still on; it does nothing where none is there that may move."""
     brush = desk.hand.brush
-    if brush.density is None and not (brush.ink and brush.row.lays_ink):
-        return
+    imgui.begin_disabled(brush.density is None and not (brush.ink and brush.row.lays_ink))
     fixed = w.segments("fixed", brush.fixed, _FIXED)
+    imgui.end_disabled()
     if fixed is not None:
         desk.hand.change(fixed=fixed)
 

@@ -69,7 +69,7 @@ def _shown(desk: Desk) -> None:
     ours = entry is not None and desk.hand.brush.example is not None
     side, scale = 40 * desk.scale, desk.scale
     corner, wide = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
-    pressed = imgui.invisible_button("example", ImVec2(wide, side))
+    pressed = imgui.invisible_button("example", ImVec2(wide, side), imgui.ButtonFlags_.enable_nav)
     hovered = imgui.is_item_hovered()
     w.tooltip(tip("examples"))
     if pressed:

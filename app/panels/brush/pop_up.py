@@ -70,7 +70,7 @@ class PopUp:
 def _favourite(desk: Desk, digit: int, preset: Preset) -> bool:
     """Draws one with its digit; tells whether it was pressed."""
     corner, size = imgui.get_cursor_screen_pos(), [_PART * side * desk.scale for side in THUMB]
-    pressed = imgui.invisible_button(f"favourite {digit}", ImVec2(*size))
+    pressed = imgui.invisible_button(f"favourite {digit}", ImVec2(*size), imgui.ButtonFlags_.enable_nav)
     w.named(f"favourite {digit}")
     w.tooltip(f"{actions.keyed(preset.name, f'favourite_{digit}')}\nShift keeps the present size")
     chosen, end = preset.name == desk.hand.preset, ImVec2(corner.x + size[0], corner.y + size[1])

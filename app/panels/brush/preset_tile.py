@@ -23,7 +23,7 @@ def tall_of(desk: Desk, wide: float) -> float:
 def draw_tile(desk: Desk, preset: Preset, wide: float) -> tuple[bool, bool]:
     """Draws one; tells whether it was taken, and whether it is in sight."""
     corner, tall = imgui.get_cursor_screen_pos(), tall_of(desk, wide)
-    taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
+    taken = imgui.invisible_button(preset.name, ImVec2(wide, tall), imgui.ButtonFlags_.enable_nav)
     w.named(preset.name)
     if not imgui.is_item_visible():  # most are scrolled away
         return taken, False

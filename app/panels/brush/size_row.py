@@ -60,7 +60,7 @@ def draw_steadying(desk: Desk) -> None:
 def _way(desk: Desk, name: str, wide: float) -> bool:
     """Draws a way as a button; tells whether it was pressed."""
     corner, tall, chosen = imgui.get_cursor_screen_pos(), 2.0 * imgui.get_font_size(), desk.hand.steadying == name
-    pressed = imgui.invisible_button(f"steady {name}", ImVec2(wide, tall))
+    pressed = imgui.invisible_button(f"steady {name}", ImVec2(wide, tall), imgui.ButtonFlags_.enable_nav)
     w.named(STEADIED[name].label)
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
     ground = theme.look.accent_soft if chosen else theme.look.hover if imgui.is_item_hovered() else theme.look.raised

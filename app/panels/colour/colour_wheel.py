@@ -58,7 +58,7 @@ class ColourWheel:
         pressed, half = None, (_MARK + 2) * desk.scale
         for i, (mark, point) in enumerate(zip(marks, points, strict=True)):
             imgui.set_cursor_screen_pos(ImVec2(point.x - half, point.y - half))
-            if imgui.invisible_button(f"harmony {i}", ImVec2(2 * half, 2 * half)):
+            if imgui.invisible_button(f"harmony {i}", ImVec2(2 * half, 2 * half), imgui.ButtonFlags_.enable_nav):
                 pressed = mark
             w.named(f"harmony {i + 1}")
             w.tooltip(f"{HARMONIES[wheel.harmony].title}\n{to_hex(from_oklch(*mark))}", beside=True)

@@ -9,6 +9,8 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.panels.controls import widgets as w
 
+_STEP = 0.01  # that a key moves it by
+
 
 def gradient_slider(
     label: str, value: float, stops: Sequence[tuple[float, float, float]], hint: str
@@ -16,10 +18,13 @@ def gradient_slider(
     """Returns a bar of colours with a marker; value 0..1.  (changed, value)"""
     width, height = imgui.get_content_region_avail().x, imgui.get_frame_height() * 0.72
     corner = imgui.get_cursor_screen_pos()
-    imgui.invisible_button(label, ImVec2(width, height))
+    imgui.invisible_button(label, ImVec2(width, height), imgui.ButtonFlags_.enable_nav)
     changed = imgui.is_item_active()
     if changed:
         value = max(0.0, min(1.0, (imgui.get_io().mouse_pos.x - corner.x) / width))
+    for key, by in ((imgui.Key.left_arrow, -_STEP), (imgui.Key.right_arrow, _STEP)):
+        if imgui.is_item_focused() and imgui.is_key_pressed(key):
+            changed, value = True, max(0.0, min(1.0, value + by))
     w.named(label)
     w.tooltip(hint)
     painter, n = imgui.get_window_draw_list(), len(stops) - 1

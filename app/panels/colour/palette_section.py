@@ -79,7 +79,7 @@ def _swatches(desk: Desk, palette: ColourList) -> None:
         if to_hex(rgb) == now:
             painter.add_rect(at, end, theme.packed((1.0,) * 3), 2.0, thickness=1.5 * desk.scale)
         imgui.set_cursor_screen_pos(at)
-        if imgui.invisible_button(f"swatch {i}", ImVec2(side, side)):
+        if imgui.invisible_button(f"swatch {i}", ImVec2(side, side), imgui.ButtonFlags_.enable_nav):
             desk.hand.colour = rgb
         w.named(f"swatch {i + 1}")
         w.tooltip(f"{name}\n{to_hex(rgb)}" if name else to_hex(rgb))

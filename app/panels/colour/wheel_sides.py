@@ -60,7 +60,7 @@ def draw_right(desk: Desk, tall: float, wide: float) -> RGB | None:
             at = ImVec2(left + column * (across + gap), start.y + (SHADES - 1 - i) * (down + gap))
             end = ImVec2(at.x + across, at.y + down)
             imgui.set_cursor_screen_pos(at)
-            if imgui.invisible_button(f"shade {column} {i}", ImVec2(across, down)):
+            if imgui.invisible_button(f"shade {column} {i}", ImVec2(across, down), imgui.ButtonFlags_.enable_nav):
                 picked = rgb
             w.named(f"{'duller' if column else 'shade'} {i + 1}")
             w.tooltip(f"{_word(column, i)}\n{to_hex(rgb)}")

@@ -50,7 +50,7 @@ class CurveEditor:
         """
         width, height = imgui.get_content_region_avail().x - spare, imgui.get_frame_height()
         corner = imgui.get_cursor_screen_pos()
-        if imgui.invisible_button(f"curve {label}", ImVec2(width, height)):
+        if imgui.invisible_button(f"curve {label}", ImVec2(width, height), imgui.ButtonFlags_.enable_nav):
             imgui.open_popup(f"edit {label}")
         hovered = imgui.is_item_hovered()
         w.named(f"curve {label}")

@@ -164,7 +164,7 @@ class ExamplesPanel(Panel):
 
     def _thumbnail(self, desk: Desk, entry: Entry, wide: float) -> None:
         corner, tall = imgui.get_cursor_screen_pos(), wide + _below(desk)
-        if imgui.invisible_button(entry.ident, ImVec2(wide, tall)):
+        if imgui.invisible_button(entry.ident, ImVec2(wide, tall), imgui.ButtonFlags_.enable_nav):
             example_use.choose(desk, entry)
         w.named(entry.title)
         chosen, hovered = desk.examples.chosen == entry.ident, imgui.is_item_hovered()

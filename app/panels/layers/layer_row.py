@@ -53,7 +53,7 @@ def small_picture(desk: Desk, row: LayerRow) -> None:
     wide, high = max(frame.width * scale, 2.0), max(frame.height * scale, 2.0)
     at = ImVec2(round(corner.x + (size.x - wide) / 2), round(corner.y + (size.y - high) / 2))
     to = ImVec2(at.x + round(wide), at.y + round(high))
-    if imgui.invisible_button("picture", size):
+    if imgui.invisible_button("picture", size, imgui.ButtonFlags_.enable_nav):
         desk.post(Do(c.SelectLayer(row.name)))
     w.named(f"picture of {row.name}")
     imgui.get_window_draw_list().add_image(shown, at, to)

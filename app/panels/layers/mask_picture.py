@@ -25,7 +25,7 @@ def draw(desk: Desk, row: LayerRow) -> None:
     """Draws it as wide as it is high, framed while the mask is painted on, crossed out while it is off."""
     side = imgui.get_frame_height()
     corner = imgui.get_cursor_screen_pos()
-    pressed = imgui.invisible_button("mask", ImVec2(side, side))
+    pressed = imgui.invisible_button("mask", ImVec2(side, side), imgui.ButtonFlags_.enable_nav)
     w.named(f"mask of {row.name}")
     hovered = imgui.is_item_hovered()
     w.tooltip(_HINT, beside=True)

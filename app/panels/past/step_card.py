@@ -37,7 +37,7 @@ def draw(name: str, picture: object | None, lines: tuple[str, ...], look: Look, 
     what tests call it."""
     scale = imgui.get_style().font_scale_dpi
     corner, (wide, tall) = imgui.get_cursor_screen_pos(), size(scale, len(lines))
-    pressed = imgui.invisible_button(f"##{name}", ImVec2(wide, tall))
+    pressed = imgui.invisible_button(f"##{name}", ImVec2(wide, tall), imgui.ButtonFlags_.enable_nav)
     right = imgui.is_item_clicked(imgui.MouseButton_.right)
     over = imgui.is_item_hovered()
     w.named(name)

@@ -87,7 +87,7 @@ class PlacesPanel(Panel):
     def _card(self, desk: Desk, mark: Bookmark, size: tuple[float, float]) -> None:
         corner = imgui.get_cursor_screen_pos()
         imgui.set_next_item_allow_overlap()
-        pressed = imgui.invisible_button("go", ImVec2(*size))
+        pressed = imgui.invisible_button("go", ImVec2(*size), imgui.ButtonFlags_.enable_nav)
         w.named(f"bookmark {mark.name}")
         hovered, end = imgui.is_item_hovered(), ImVec2(corner.x + size[0], corner.y + size[1])
         w.tooltip(f"Go to “{mark.name}”")

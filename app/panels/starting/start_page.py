@@ -140,7 +140,7 @@ class StartPage:
         """Draws the painting to play with, whose picture is pressed as its button is."""
         corner, size = imgui.get_cursor_screen_pos(), ImVec2(wide, round(wide * _RATIO))
         hint = "It is painted before your eyes, in a minute or more; zoom in or stop it meanwhile"
-        pressed = imgui.invisible_button("lake", size) and ready(desk)
+        pressed = imgui.invisible_button("lake", size, imgui.ButtonFlags_.enable_nav) and ready(desk)
         w.named("lake picture")
         w.tooltip(hint)
         end, painter = ImVec2(corner.x + size.x, corner.y + size.y), imgui.get_window_draw_list()

@@ -21,7 +21,7 @@ DRAWING = {
 # Where names of the artist's own are drawn, signs and numbers, or what was looked up before: by modules.
 OWN = {
     *("brush.preset_tile", "examples.examples_panel", "controls.widgets", "dialogs.file_list", "menu_bar"),
-    *("layers.layers_panel", "places.places_panel", "recent_menu", "recovery.cards"),
+    *("arranging.workspaces_dialog", "layers.layers_panel", "places.places_panel", "recent_menu", "recovery.cards"),
 }
 
 
