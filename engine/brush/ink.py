@@ -122,6 +122,7 @@ def resolve(
         place = f"{where}.ink[{i}]"
         curve = sway.curve_of(component, place)
         own = named(component if curve is None else sway.at_weight(component, 0.0), textures, level, seed, place)
+        curve = sway.curve_of_pen(own, component, curve)
         made = shaped(own, component.shaping, brush.shaping)
         amplitude, shift = _mixed(own, component, under)
         stages = getattr(own, "stages", 1)

@@ -16,6 +16,7 @@ import numpy as np
 
 from engine.brush import checks
 from engine.brush.parts import Component
+from engine.texture.expression.written_ink import Expression
 from engine.texture.record import Instance
 
 _STRAIGHT = ((0.0, 0.0), (1.0, 1.0))
@@ -53,6 +54,13 @@ def curve_of(component: Component, place: str) -> checks.Knots | None:
         checks.one_of(given, f"{place}.weight", ("pressure",))
         return _STRAIGHT
     return checks.knots(given, f"{place}.weight", 1.0) if isinstance(given, list | tuple) else None
+
+
+def curve_of_pen(own: Instance, component: Component, told: checks.Knots | None) -> checks.Knots | None:
+    """Returns the curve by which the pressure sets a texture: that which is told; as it is for a written texture that
+    looks at it, unless the component tells a weight."""
+    pressed = isinstance(own, Expression) and own.stages > 1 and "weight" not in component.parameters
+    return _STRAIGHT if told is None and pressed else told
 
 
 def at_weight(component: Component, weight: float) -> Component:

@@ -8,7 +8,14 @@ from dataclasses import replace
 from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_integer, is_within
 from engine.texture.expression.language import COST_MOST, read
-from engine.texture.expression.written import CHARACTERS_MOST, Adjustable, WrittenError, WrittenText, is_colour
+from engine.texture.expression.written import (
+    CHARACTERS_MOST,
+    PRESSURE,
+    Adjustable,
+    WrittenError,
+    WrittenText,
+    is_colour,
+)
 from engine.texture.expression.written_ink import Expression, woven_line
 
 PERIOD = 64.0  # pixels, usually
@@ -35,7 +42,10 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
     assert isinstance(level, int)
     assert isinstance(seed, int)
     try:
-        values = chosen_values(read(text), parameters.get("values", {}))
+        written = read(text)
+        values = chosen_values(written, parameters.get("values", {}))
+        if written.presses:  # as one value more, which is the pen's to set
+            values = (*values, (PRESSURE, _pressure(parameters.get("weight", 1.0))))
         check_woven(text, values, seed, float(period))
     except WrittenError as error:
         raise FieldError(f"text, line {error.line}, column {error.column}", error.found, error.expected) from None
@@ -48,8 +58,16 @@ def expression_of_key(key: Sequence[object]) -> Expression:
     if len(key) < 6 or len(key) % 2 or not isinstance(base, int):
         raise FieldError("key", described(list(key)), "[kind, base level, text, period, level, seed, name, value, ...]")
     values = {str(name): value for name, value in zip(key[6::2], key[7::2], strict=True)}
-    made = expression({"text": key[2], "period": key[3], "level": key[4], "seed": key[5], "values": values}, base)
+    told = {"text": key[2], "period": key[3], "level": key[4], "seed": key[5], "weight": values.pop(PRESSURE, 1.0)}
+    made = expression({**told, "values": values}, base)
     return replace(made, covers=key[0] == "expression-cover")
+
+
+def _pressure(weight: object) -> float:
+    if not is_within(weight, 0.0, 1.0):
+        raise FieldError("weight", described(weight), "a number from 0 to 1: the pressure")
+    assert isinstance(weight, int | float)
+    return float(weight) + 0.0
 
 
 def check_woven(text: str, values: Values, seed: int = 0, period: float = PERIOD) -> None:

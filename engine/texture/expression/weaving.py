@@ -20,7 +20,7 @@ from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph, TooLarge
 from engine.texture.expression.slopes import Slopes
 from engine.texture.expression.spreads import Spreads
-from engine.texture.expression.written import PICK, SLIDER, Term, WrittenError, WrittenText
+from engine.texture.expression.written import PICK, PRESSURE, SLIDER, Term, WrittenError, WrittenText
 
 NESTED_MOST = 160  # parts within one another, lines that others refer to counted in
 POINT_SIDE, JUMP_SIDE = 2, 4  # samples along a pixel where a mean is not exact, and where it jumps
@@ -254,6 +254,10 @@ def _name(weaver: Weaver, term: Term, env: Env) -> Value:
         return Value((env.x if term.told == "x" else env.y,))
     if env.static and term.told in ("fw", "level"):
         weaver.refuse(term, "a number that changes from level to level", "one that does not")
+    if term.told == PRESSURE:
+        pressure = setting.values.get(PRESSURE, 1.0)
+        assert not isinstance(pressure, str)
+        return Value((weaver.graph.constant(pressure),))
     told = {"fw": setting.width, "level": float(setting.level), "seed": float(setting.seed % (1 << 24))}
     return Value((weaver.graph.constant(told[term.told]),))
 

@@ -19,11 +19,13 @@ from engine.numeric.formula import CONSTANTS
 from engine.numeric.reader import ARITHMETIC_SIGNS, NUMBER, Reader, Token, Words, quoted, tokens
 
 CHARACTERS_MOST, LINES_MOST, PARTS_MOST, DEPTH_MOST = 16_384, 64, 2_000, 40
+PRESSURE = "pressure"
 PLACE_NAMES = {
     "x": "the place, in periods from the left",
     "y": "the place, in periods from the top",
     "fw": "the width of a pixel, in periods",
     "level": "the level that is looked at: each has twice the pixels of the one before",
+    PRESSURE: "how hard the pen pressed, 0 to 1; 1 where there is no pen",
     "seed": "the number that tells one texture from another of the same text",
 }
 SLIDER, PICK = "slider", "pick"
@@ -87,6 +89,17 @@ class WrittenText:
     def sliders(self) -> dict[str, Adjustable]:
         """Gives what may be set, by name."""
         return {line.name: line.slider for line in self.lines if line.slider is not None}
+
+    @property
+    def presses(self) -> bool:
+        """Tells whether any line looks at the pressure."""
+        open_ = [line.term for line in self.lines]
+        while open_:
+            term = open_.pop()
+            if term.told == PRESSURE:
+                return True
+            open_.extend(term.parts)
+        return False
 
     def place(self, at: int) -> tuple[int, int]:
         """Returns the line and the column, from 1, of a character of the text."""

@@ -17,7 +17,9 @@ from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.texture.expression.language import Woven, read, weave
 from engine.texture.expression.programs import Program, draw_program, program
 from engine.texture.expression.weaving import Setting
+from engine.texture.expression.written import PRESSURE
 
+STAGES = 5  # pressures from 0 to 1, between which is mixed
 FINEST_PIXEL = 34  # a pixel of 2^-34 periods is the last that differs from its neighbours
 _COARSEST = -40  # levels above where the period is told
 _MEMO = 256
@@ -42,6 +44,11 @@ class Expression:
         kind = "expression-cover" if self.covers else "expression"
         pairs = (part for pair in self.values for part in pair)
         return (kind, self.base, self.text, self.period, self.level, self.seed, *pairs)
+
+    @property
+    def stages(self) -> int:
+        """Gives how many textures of as many pressures are mixed where the pen's pressure counts, else 1."""
+        return STAGES if any(name == PRESSURE for name, _ in self.values) else 1
 
     @property
     def shows_colours(self) -> bool:

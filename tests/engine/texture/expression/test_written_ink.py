@@ -2,9 +2,14 @@
 
 import numpy as np
 import pytest
+from immutables import Map
 
-from engine.numeric.address import Rect
+from engine.brush.ink import resolve
+from engine.brush.settings import from_json
+from engine.checks.field_error import FieldError
+from engine.numeric.address import Rect, TileKey
 from engine.numeric.detail import parents, subtract_expanded
+from engine.painting.textures import Texture
 from engine.texture import table
 from engine.texture.expression.defined import anew, expression
 from engine.texture.record import Instance
@@ -97,6 +102,33 @@ def test_ink_gives_values_anew_and_a_period_of_its_own_level():
     assert anew(defined, {"values": {"b": 3}}, 5)["values"] == {"a": 1, "b": 3}
     assert anew(defined, {"period": 20}, 5) == {**defined, "period": 20, "level": 5}
     assert anew(defined, {}, 5) == defined
+
+
+def test_what_looks_at_the_pressure_has_stages():
+    text = "a = slider(1, 0, 2)\npressure*a + x*0"
+    made = expression({"text": text, "weight": 0.25}, 0)
+    assert made.stages == 5
+    assert made.appearance(0, Rect(0, 0, 1, 1)).item() == -0.5
+    assert table.from_key(list(made.key), {}) == made
+    assert expression({"text": text}, 0).appearance(0, Rect(0, 0, 1, 1)).item() == 1.0
+    assert expression({"text": "x"}, 0).stages == 1
+    for wrong in ({"weight": 2}, {"weight": "hard"}, {"values": {"pressure": 0.5}}):
+        with pytest.raises(FieldError):
+            expression({"text": text, **wrong}, 0)
+
+
+def test_a_stroke_follows_the_pressure():
+    texture = Texture("expression", Map({"text": "mix(#ff0000, #0000ff, pressure)"}))
+    brush = from_json({"colour": "#00ff00", "ink": [{"texture": "t", "amount": 1}]})
+    ink = resolve(brush, {"t": texture}, 0, 0)
+    pressure = np.linspace(0, 1, 128 * 128, dtype=np.float32).reshape(128, 128)
+    colour, amplitudes, inks = ink.under(TileKey(0, 0, 0), pressure)
+    np.testing.assert_allclose(colour[0], 1 - pressure, atol=1e-5)
+    np.testing.assert_allclose(colour[1], 0, atol=1e-5)
+    np.testing.assert_allclose(colour[2], pressure, atol=1e-5)
+    assert len(inks) == 5 == len(amplitudes) // 3
+    told = from_json({"ink": [{"texture": "t", "amount": 1, "weight": 0.5}]})
+    assert not resolve(told, {"t": texture}, 0, 0).swayed
 
 
 def test_a_seed_is_another_texture():
