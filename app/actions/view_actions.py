@@ -150,6 +150,9 @@ VIEW_ACTIONS: dict[str, A] = {
     "solid": A(
         "Solid", "View", ("Shift+T",), "Stone and wood on an object", _strip("solid"), ready, _open("solid")
     ),
+    "workshop": A(
+        "Workshop", "View", ("Shift+E",), "Write a texture of your own", _strip("workshop"), ready, _open("workshop")
+    ),
     "examples": A(
         "Examples", "View", ("P",), "Paint with textures that have a rim", _strip("examples"), ready, _open("examples")
     ),

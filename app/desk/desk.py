@@ -47,6 +47,7 @@ from app.desk.remembering.start_state import StartState
 from app.desk.selecting.select_state import SelectState
 from app.desk.solids.solid_state import SolidState
 from app.desk.stack.stack_state import StackState
+from app.desk.workshop.workshop_state import WorkshopState
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
 from engine.studio.filing.opening_requests import CancelOpening, Show
@@ -165,6 +166,7 @@ class Desk:
     remembered: Remembered = field(default_factory=Remembered)
     start: StartState = field(default_factory=StartState)
     solid: SolidState = field(default_factory=SolidState)
+    workshop: WorkshopState = field(default_factory=WorkshopState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square

@@ -26,6 +26,7 @@ from app.panels.panel import Painting, Panel
 from app.panels.past.history_panel import HistoryPanel
 from app.panels.places.places_panel import PlacesPanel
 from app.panels.solids.solid_panel import SolidPanel
+from app.panels.workshop.workshop_panel import WorkshopPanel
 
 PART, HIGHEST = 0.4, 640.0  # of the window's height; points
 
@@ -43,6 +44,7 @@ class Strip(NamedTuple):
 STRIPS = {
     "lab": Strip("Texture lab", icons.FLASK, "Paint its grain: coarse in the middle, fine at the rim", LabPanel),
     "match": Strip("Match a texture", icons.MATCH, "Noise becomes like an example, band by band", MatchingPanel),
+    "workshop": Strip("Workshop", icons.CODE, "Write a texture: each line is seen as you write", WorkshopPanel, 400.0),
     "solid": Strip("Solid", icons.SOLID, "Stone and wood through and through; a slice of it is ink", SolidPanel),
     "examples": Strip("Examples", icons.EXAMPLES, "Textures that grow where you paint, rim and all", ExamplesPanel),
     "history": Strip("History", icons.CLOCK, "Every step, with a small picture", HistoryPanel, 290.0),

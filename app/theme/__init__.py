@@ -13,6 +13,7 @@ FONT_SIZE = 15.0
 FONTS = Path(imgui_bundle.__file__).parent / "assets" / "fonts"
 
 look: WindowLook = LOOKS[USUAL_LOOK]  # the one in force
+letters: imgui.ImFont | None = None  # the font whose letters are all as wide
 
 GROUNDS = {
     "text": "text",
@@ -63,8 +64,11 @@ def packed(colour: tuple[float, ...], alpha: float = 1.0) -> int:
 
 
 def load_fonts(io: imgui.IO) -> None:
-    """Loads text and icons as one font; glyphs are rasterised when first shown, at any size."""
-    io.fonts.add_font_from_file_ttf(str(FONTS / "Roboto" / "Roboto-Regular.ttf"), FONT_SIZE)
+    """Loads text and icons as one font, and one for what is written line by line, whose letters are all as wide; glyphs
+    are rasterised when first shown, at any size."""
+    global letters
+    letters = io.fonts.add_font_from_file_ttf(str(FONTS / "Inconsolata-Medium.ttf"), FONT_SIZE)
+    io.font_default = io.fonts.add_font_from_file_ttf(str(FONTS / "Roboto" / "Roboto-Regular.ttf"), FONT_SIZE)
     icons = imgui.ImFontConfig()
     icons.merge_mode = True
     icons.glyph_min_advance_x = FONT_SIZE

@@ -33,6 +33,7 @@ from engine.studio.selecting.tint_records import TintRequest
 from engine.studio.stack.stack_requests import ShowOnly
 from engine.studio.textures.cut_records import FindCut
 from engine.studio.textures.texture_requests import LabRequest, MatchRequest, RegionRequest
+from engine.studio.workshop.workshop_records import WorkshopRequest
 
 if TYPE_CHECKING:
     from engine.brush.settings import Brush
@@ -263,6 +264,7 @@ Request = (
     | Swatch
     | Pick
     | LabRequest
+    | WorkshopRequest
     | RegionRequest
     | FindCut
     | Analyse

@@ -29,6 +29,7 @@ from engine.studio.selecting.ants_records import Ants
 from engine.studio.selecting.tint_records import Tint
 from engine.studio.textures.cut_records import CutFound
 from engine.studio.textures.texture_results import TextureResult
+from engine.studio.workshop.workshop_records import WorkshopResult
 
 if TYPE_CHECKING:
     from engine.painting.commands import Bookmark, Guide
@@ -312,6 +313,7 @@ Result = (
     | Writing
     | PicturePart
     | TextureResult
+    | WorkshopResult
     | CutFound
     | GotReady
     | Filming

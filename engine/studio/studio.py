@@ -53,6 +53,7 @@ from engine.studio.textures.matcher import Matcher
 from engine.studio.textures.region_strokes import Regions
 from engine.studio.textures.texture_doctor import TextureDoctor
 from engine.studio.warming import Warming
+from engine.studio.workshop.workshop import Workshop
 
 _NO_REQUESTS: q.Handlers = {}
 _DEFAULT = Preferences()
@@ -117,7 +118,7 @@ class Studio(Owned):
             Work(lambda: viewer.fresh, viewer.send_fresh),
             *_each(AntsFinder(easel), TintFinder(easel)),
             _of(Regions(send)),
-            _of(self.lab),
+            *_each(self.lab, Workshop(easel)),
             *_each(MaskPictures(easel), Trials(easel)),
             *_each(Moves(easel), FrameFitter(easel)),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),

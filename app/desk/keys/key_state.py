@@ -13,9 +13,9 @@ _SEEN_IN = 6  # frames in which a key of a panel is done and drawn
 @dataclass(slots=True)
 class KeyState:
     """`bound`: what is bound otherwise than it comes; `listening`: the next press is for the list of keys, which takes
-    it from `pressed`; `told`: a line about a map that was brought in; `own`: what a ready-made map replaced; `panel`: the
-    number of the panel that keys go through, None while they are the canvas's, `turning`: it is another one from now
-    on; `frames` that are to follow until what a key did is seen."""
+    it from `pressed`; `told`: a line about a map that was brought in; `own`: what a ready-made map replaced; `panel`:
+    the number of the panel that keys go through, None while they are the canvas's, `turning`: it is another one from
+    now on; `frames` that are to follow until what a key did is seen."""
 
     bound: Bound = field(default_factory=dict)
     listening: bool = False

@@ -257,6 +257,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "match picture 0": file_browser.choosing_example(0),
     "match picture 1": file_browser.choosing_example(1),
     "example picture": file_browser.choosing_own,
+    "texture text": file_browser.choosing_text,
+    "texture text to": file_browser.writing_text,
     "solid mesh": file_browser.choosing_mesh,
     "solid cube": file_browser.choosing_cube,
     "drawn cube": file_browser.choosing_drawn_cube,

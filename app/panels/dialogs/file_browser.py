@@ -30,6 +30,7 @@ from app.desk.previews import FileRow
 from app.desk.proofing.proof_work import PROFILES
 from app.desk.sharing.preset_work import BRUSH, BRUSHES, SharePreset, bring_preset
 from app.desk.solids.cube_work import CUBES, DRAWABLE, bring_cube
+from app.desk.workshop.workshop_work import TEXT, TEXTS, ReadText, keep_text
 from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
@@ -259,6 +260,17 @@ def choosing_own(desk: Desk) -> SystemDialog | Browser:
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture to paint with."""
     return _chooser(desk, "Paint with a picture", _PICTURES, pictured.from_file)
+
+
+def choosing_text(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a texture that was written."""
+    return _chooser(desk, "Open a written texture", TEXTS, lambda d, path: d.work(ReadText(path)))
+
+
+def writing_text(desk: Desk) -> SystemDialog | Browser:
+    """Asks where to keep the texture that is in the workshop."""
+    name = f"{stem_of(desk.workshop.name or 'Written')}{TEXT}"
+    return _chooser(desk, "Keep a written texture", (TEXT,), keep_text, name)
 
 
 def choosing_mesh(desk: Desk) -> SystemDialog | Browser:

@@ -143,6 +143,13 @@ def _far(sample: int, whole: Fraction) -> float:
     return float(Fraction(2 * sample + 1, 2) / whole - WRAP * _turn(sample, whole))
 
 
+def make_kernels() -> None:
+    """Runs the machine once, on nothing, so that its kernels are there."""
+    numbers, keys = np.zeros(1), np.zeros(1, np.uint32)
+    empty = Program(np.zeros((0, 10), np.int32), numbers, keys, np.ones(1), 1, np.zeros(1, np.int32), 1, 0.0)
+    empty.over(np.zeros(1), np.zeros(1))
+
+
 def draw_program(made: Program, rect: Rect, period: Fraction, pictures: np.ndarray | None = None) -> np.ndarray:
     """Returns a program's means over the pixels of a rectangle: float32 (channels, h, w); `period`: pixels."""
     xs = sample_places(rect.x0, rect.width, made.side, period)

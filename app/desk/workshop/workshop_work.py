@@ -1,0 +1,92 @@
+"""Written textures as files: one small text each, that the command line reads as it is."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path, PurePath
+
+import platformdirs
+
+from app.desk.desk import Desk, FileWork
+
+TEXT = ".inktexture"  # the ending of a written texture
+TEXTS = (TEXT, ".txt")
+_BYTES_MOST = 1 << 16
+_PERIOD = re.compile(r"^// period (\d+(?:\.\d+)?)[ \t]*\n", re.MULTILINE)
+
+
+def own_texts() -> Path:
+    """Tells where written textures are kept."""
+    return platformdirs.user_data_path("inkfall") / "textures"
+
+
+@dataclass(frozen=True, slots=True)
+class ListTexts(FileWork):
+    """Looks which are kept."""
+
+    def carry_out(self) -> tuple[str, ...]:
+        """Returns their paths, by name."""
+        folder = own_texts()
+        return tuple(sorted(map(str, folder.glob(f"*{TEXT}")))) if folder.is_dir() else ()
+
+    def arrive(self, desk: Desk, found: tuple[str, ...]) -> None:
+        """Lists them."""
+        desk.workshop.files = found
+
+
+@dataclass(frozen=True, slots=True)
+class ReadText(FileWork):
+    """Opens one in the workshop."""
+
+    path: PurePath
+
+    def carry_out(self) -> tuple[str, float | None]:
+        """Returns its text, and its period if it tells one."""
+        data = Path(self.path).read_bytes()
+        if len(data) > _BYTES_MOST:
+            raise OSError(f"{self.path.name}: found {len(data)} bytes, expected {_BYTES_MOST} at most")
+        try:
+            text = data.decode("utf-8-sig").replace("\r\n", "\n")
+        except UnicodeDecodeError:
+            raise OSError(f"{self.path.name}: found bytes that are no UTF-8, expected a text") from None
+        found = _PERIOD.search(text)
+        return _PERIOD.sub("", text, count=1), None if found is None else float(found[1])
+
+    def arrive(self, desk: Desk, found: tuple[str, float | None]) -> None:
+        """Puts it into the workshop."""
+        text, period = found
+        desk.strip = "workshop"
+        if period is None:
+            desk.workshop.take(text, self.path.stem)
+        else:
+            desk.workshop.take(text, self.path.stem, period=period)
+
+
+@dataclass(frozen=True, slots=True)
+class WriteText(FileWork):
+    """Keeps a text in a file."""
+
+    path: Path
+    text: str
+    period: float
+
+    def carry_out(self) -> tuple[str, ...]:
+        """Writes it; returns all that are kept."""
+        from engine.files.atomic import replacing  # here: it takes its time to load
+
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        with replacing(self.path) as file:
+            file.write(f"// period {self.period:g}\n{self.text.rstrip()}\n".encode())
+        return ListTexts().carry_out()
+
+    def arrive(self, desk: Desk, found: tuple[str, ...]) -> None:
+        """Tells it."""
+        desk.workshop.files, desk.workshop.name = found, self.path.stem
+        desk.say(f"Kept the texture “{self.path.stem}”")
+
+
+def keep_text(desk: Desk, path: Path) -> None:
+    """Keeps what is in the workshop in a file, its sliders as they stand."""
+    state = desk.workshop
+    desk.work(WriteText(path, state.settled_text, state.period))

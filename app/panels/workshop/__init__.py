@@ -1,0 +1,1 @@
+"""The workshop, in which textures are written."""

@@ -1,0 +1,92 @@
+"""What stands beside the lines of a text: each one's picture, which a click brings alone into sight, and its values."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+from engine.studio.workshop.workshop_records import LINES_ACROSS, WorkshopLine
+
+_LARGE = 128  # points of a line's picture under the pointer
+
+
+class LineMarks:
+    """Draws them row by row, as the field goes along."""
+
+    def __init__(self) -> None:
+        self._desk: Desk | None = None
+        self._rows: dict[int, tuple[int, WorkshopLine]] = {}
+
+    def begin(self, desk: Desk) -> None:
+        """Takes what is known now."""
+        self._desk = desk
+        self._rows = {line.row - 1: (n, line) for n, line in enumerate(desk.workshop.scene.lines)}
+
+    def draw(self, row: int, corner: ImVec2, size: ImVec2) -> None:
+        """Draws what stands beside a row, counted from 0."""
+        if self._desk is None or row not in self._rows:
+            return
+        desk, (number, line) = self._desk, self._rows[row]
+        state, side = desk.workshop, size.y - 2
+        x = corner.x + (size.x - 1.6 * side) / 2
+        last = len(state.scene.lines) - 1
+        alone = number == (state.line if 0 <= state.line <= last else last)
+        imgui.set_cursor_screen_pos(ImVec2(x, corner.y + 1))
+        if imgui.invisible_button(f"##line {row}", ImVec2(1.6 * side, side)):
+            state.line = -1 if number == last or state.line == number else number
+        w.named(f"line {number + 1}")
+        painter, at, end = imgui.get_window_draw_list(), imgui.get_item_rect_min(), imgui.get_item_rect_max()
+        shown = desk.pictures.get("workshop lines")
+        if shown is not None:
+            u, v = _corners(number, last + 1)
+            middle, half = (u.y + v.y) / 2, (v.y - u.y) / 3.2
+            u, v = ImVec2(u.x, middle - half), ImVec2(v.x, middle + half)
+            painter.add_image_rounded(shown, at, end, u, v, -1 & 0xFFFFFFFF, 3)
+        if alone or imgui.is_item_hovered():
+            colour = theme.packed(theme.look.accent if alone else theme.look.text)
+            painter.add_rect(at - ImVec2(1, 1), end + ImVec2(1, 1), colour, 3, thickness=1.5)
+        if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
+            _tell(desk, number, line)
+
+    def note(self, row: int) -> str:
+        """Returns what a row's line is at the pixel under the pointer; "" while that is over nothing."""
+        desk = self._desk
+        if desk is None or row not in self._rows or desk.workshop.over is None or desk.workshop.seen is None:
+            return ""
+        number, values = self._rows[row][0], desk.workshop.seen.values
+        return _told(values[number]) if number < len(values) else ""
+
+
+def _corners(number: int, count: int) -> tuple[ImVec2, ImVec2]:
+    """Returns where a line's picture lies among all."""
+    rows = -(-count // LINES_ACROSS)
+    left, top = number % LINES_ACROSS / LINES_ACROSS, number // LINES_ACROSS / rows
+    return ImVec2(left, top), ImVec2(left + 1 / LINES_ACROSS, top + 1 / rows)
+
+
+def _told(values: tuple[float, ...]) -> str:
+    if len(values) == 1:
+        return f"{values[0]:.3f}"
+    red, green, blue, alpha = values
+    shown = (round(max(0.0, min(1.0, value)) * 255) for value in (red, green, blue))
+    return "#" + "".join(f"{value:02x}" for value in shown) + (f" {alpha:.0%}" if alpha < 0.999 else "")
+
+
+def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
+    """Draws a line's picture larger, and what is known of it."""
+    side, padding = _LARGE * desk.scale, imgui.get_style().window_padding
+    shown = desk.pictures.get("workshop lines")
+    text = f"{line.cost:,.0f} ns, {line.samples} " + ("sample" if line.samples == 1 else "samples") + " a pixel"
+    about = f"{'brightness ' if line.coloured else ''}{line.least:.2f} … {line.most:.2f}"
+    high = side + 3 * imgui.get_text_line_height_with_spacing()
+    wide = max(side, imgui.calc_text_size(text).x, imgui.calc_text_size(line.name).x)
+    imgui.set_next_window_size(ImVec2(wide, high) + padding * 2)
+    if imgui.begin_tooltip():
+        if shown is not None:
+            imgui.image(shown, ImVec2(side, side), *_corners(number, len(desk.workshop.scene.lines)))
+        imgui.text_unformatted(line.name or "the texture")
+        imgui.text_disabled(about)
+        imgui.text_disabled(text)
+        imgui.end_tooltip()

@@ -1,0 +1,62 @@
+"""Which text is in the workshop: examples that teach, files, what the brush paints with; and undo."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+
+from imgui_bundle import imgui
+
+from app import icons
+from app.desk.desk import Desk
+from app.desk.workshop.lessons import FIRST_TEXT, LESSONS
+from app.desk.workshop.workshop_work import ListTexts, ReadText
+from app.language import said
+from app.panels.controls import widgets as w
+from app.panels.workshop.text_field import TextField
+
+
+def draw_texts(desk: Desk, field: TextField) -> None:
+    """Draws it into the title line."""
+    state, gap = desk.workshop, 2 * desk.scale
+    if state.files is None:
+        state.files = ()
+        desk.work(ListTexts())
+    if w.text_button(
+        f"{icons.EXAMPLES} {state.name or 'Examples'}###texts", "Examples that teach, in order; and yours"
+    ):
+        imgui.open_popup("texts")
+    w.named("Examples")
+    _menu(desk)
+    imgui.same_line(0, gap)
+    if w.icon_button("new text", icons.ADD, "Another text, from the beginning"):
+        state.take(FIRST_TEXT)
+    imgui.same_line(0, gap)
+    if w.icon_button("open text", icons.FOLDER, "Open a texture that was written: its file may be dropped here, too"):
+        desk.asked.show("texture text")
+    imgui.same_line(0, gap)
+    if w.icon_button("keep text", icons.DISK, "Keep it as a small file, which others can open", enabled=state.right):
+        desk.asked.show("texture text to")
+    imgui.same_line(0, gap)
+    back, again = field.travels
+    if w.icon_button("text back", icons.UNDO, "Take back what was written  (Ctrl+Z in the text)", enabled=back):
+        field.travel(-1)
+    imgui.same_line(0, gap)
+    if w.icon_button("text again", icons.REDO, "Write it again  (Ctrl+Y in the text)", enabled=again):
+        field.travel(1)
+
+
+def _menu(desk: Desk) -> None:
+    if not imgui.begin_popup("texts"):
+        return
+    state = desk.workshop
+    for lesson in LESSONS:
+        if said.menu_item(lesson.title, "", False)[0]:
+            state.take(lesson.text, lesson.title.lstrip("0123456789 "))
+        w.named(lesson.title)
+    if state.files:
+        imgui.separator()
+    for path in state.files or ():
+        if imgui.menu_item(f"{PurePath(path).stem}##{path}", "", False)[0]:
+            desk.work(ReadText(PurePath(path)))
+        w.named(PurePath(path).stem)
+    imgui.end_popup()

@@ -1,0 +1,1 @@
+"""Textures while they are written: looked into, line by line."""

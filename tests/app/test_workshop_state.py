@@ -1,0 +1,111 @@
+"""The workshop as the window knows it: texts that teach, words that are completed, what is looked at, files."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from immutables import Map
+
+from app.desk.workshop.lessons import FIRST_TEXT, LESSONS
+from app.desk.workshop.workshop_state import WorkshopState
+from app.desk.workshop.workshop_work import ReadText, WriteText
+from app.panels.workshop import text_colours as colours
+from app.panels.workshop.completing import function_around, offers, word_before
+from engine.studio.workshop.workshop import language_words
+from engine.studio.workshop.workshop_records import WorkshopAsk, WorkshopSet
+from engine.texture.expression.defined import expression
+
+WORDS = language_words()
+NAMES = colours.Names(frozenset(row.name for row in WORDS.functions), frozenset("xy"), frozenset({"wall"}))
+
+
+@pytest.mark.parametrize("text", [FIRST_TEXT, *(lesson.text for lesson in LESSONS)])
+def test_lessons_are_right_and_begin_with_what_they_teach(text):
+    assert text.startswith("//")
+    expression({"text": text}, -4)
+
+
+def test_a_word_is_completed_by_what_begins_with_it_then_by_what_holds_it():
+    found = [offer.text for offer in offers("bri", WORDS, ())]
+    assert found[:2] == ["bricks(", "bricks_random("]
+    assert next(offer.text for offer in offers("wal", WORDS, {"wall", "tone"})) == "wall"
+    assert offers("bricks_random", WORDS, ()) == ()
+    assert offers("", WORDS, {"wall"}) == ()
+
+
+@pytest.mark.parametrize(
+    ("line", "at", "word"),
+    [("a = fb", 6, "fb"), ("a = fbm(x", 9, "x"), ("// nois", 7, ""), ("#8a3", 4, ""), ("a = ", 4, ""),
+     ("a = fbm", 6, "fb")],
+)  # fmt: skip
+def test_the_word_before_the_caret(line, at, word):
+    assert word_before(line, at) == word
+
+
+def test_the_function_around_the_caret_is_the_innermost():
+    line = "mix(#000000, fbm(x*4, y), 1)"
+    assert function_around(line, 20, WORDS).name == "fbm"
+    assert function_around(line, 26, WORDS).name == "mix"
+    assert function_around(line, 2, WORDS).name == "mix"
+    assert function_around("wall", 2, WORDS) is None
+
+
+@given(st.text(alphabet=st.characters(codec="ascii", exclude_categories=["Cc"]), max_size=40))
+def test_the_parts_of_a_line_are_all_its_letters_but_blanks(line):
+    parts = colours.text_parts(line, NAMES)
+    assert "".join(part.text for part in parts).replace(" ", "") == line.replace(" ", "")
+    assert all(line[part.at :].startswith(part.text) for part in parts)
+
+
+def test_parts_are_told_apart():
+    found = [(part.text, part.kind) for part in colours.text_parts("wall = fbm(x*0.5, #8a3a2a) // so", NAMES)]
+    assert found == [
+        *(("wall", colours.OWN_NAME), ("=", colours.SIGN), ("fbm", colours.FUNCTION), ("(", colours.SIGN)),
+        *(("x", colours.PLACE), ("*", colours.SIGN), ("0.5", colours.NUMBER_PART), (",", colours.SIGN)),
+        *(("#8a3a2a", colours.COLOUR_PART), (")", colours.SIGN), ("// so", colours.NOTE)),
+    ]
+    assert colours.own_names("wall = 1; tone=2\nx == 3\n  last = 4") == {"wall", "tone", "last"}
+
+
+def test_what_was_set_is_asked_for_once():
+    state, posted = WorkshopState(), []
+    state.ask(posted.append)
+    state.ask(posted.append)
+    assert [type(one) for one in posted] == [WorkshopSet]
+    state.over = (3, 4)
+    state.ask(posted.append)
+    state.edit("x\ny")
+    state.ask(posted.append)
+    assert posted[1] == WorkshopAsk((3, 4))
+    assert posted[2].text == "x\ny"
+    assert posted[3] == WorkshopAsk((3, 4))  # its values are others now
+
+
+@given(st.integers(-3, 3), st.integers(0, 250), st.integers(0, 250))
+def test_what_is_under_the_pointer_stays_there_as_one_zooms(finer, x, y):
+    state = WorkshopState(origin=(512, -256))
+    before = [o + a for o, a in zip(state.origin, (x, y), strict=True)]
+    state.zoom(finer, (x, y))
+    after = [o + a for o, a in zip(state.origin, (x, y), strict=True)]
+    for one, other in zip(before, after, strict=True):
+        assert abs(one * 2.0**finer - other) <= 8 + 2.0**finer
+
+
+def test_values_of_sliders_are_written_into_the_text():
+    state = WorkshopState("a = slider(0.5, 0, 1); b = pick( #102030 )\nab = slider(1, 0, 2)\na*b*ab")
+    state.values = Map({"a": 0.25, "b": "#ffffff", "ab": 2.0})
+    state.settle()
+    assert state.text == "a = slider(0.25, 0, 1); b = pick( #ffffff )\nab = slider(2, 0, 2)\na*b*ab"
+    assert not state.values
+    assert state.put
+
+
+def test_a_text_comes_back_from_its_file_with_its_period(tmp_path):
+    path = tmp_path / "wall.inktexture"
+    WriteText(path, "// a wall\nbricks(x, y)\n", 96.0).carry_out()
+    assert ReadText(path).carry_out() == ("// a wall\nbricks(x, y)\n", 96.0)
+    expression({"text": path.read_text()}, 0)  # as the command line reads it
+    (tmp_path / "other.txt").write_text("x")
+    assert ReadText(tmp_path / "other.txt").carry_out() == ("x", None)
+    (tmp_path / "bad.txt").write_bytes(b"\xff\xfe")
+    with pytest.raises(OSError, match="UTF-8"):
+        ReadText(tmp_path / "bad.txt").carry_out()

@@ -1,0 +1,130 @@
+"""A texture while it is written: what the engine tells of it, piece by piece."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from immutables import Map
+
+from engine.studio.workshop import workshop_records as wr
+from engine.studio.workshop.workshop import Workshop
+
+WALL = """brick = pick(#8a3a2a)
+worn = slider(0.4, 0, 1)
+wall = bricks(x*4, y*8, 0.12)
+mix(#b0a898, brick * (1 - worn), wall)
+"""
+SIZE = (160, 96)
+
+
+class Room:
+    """The workshop, and what it told."""
+
+    def __init__(self):
+        self.sent = []
+        self.easel = SimpleNamespace(send=self.sent.append, live=None)
+        self.workshop = Workshop(self.easel)
+
+    def ask(self, request):
+        self.sent.clear()
+        self.workshop.handlers[type(request)](request)
+        while self.workshop.pending:
+            self.workshop.step()
+        return self.sent
+
+    def scene(self, text, **told):
+        return [one for one in self.ask(wr.WorkshopSet(text, size=SIZE, **told)) if isinstance(one, wr.WorkshopScene)][
+            -1
+        ]
+
+    def pictures(self):
+        return {one.ident: one.pixels for one in self.sent if hasattr(one, "ident")}
+
+
+@pytest.fixture
+def room():
+    return Room()
+
+
+def test_a_text_is_told_line_by_line(room):
+    scene = room.scene(WALL)
+    assert scene.mistake is None
+    assert [(line.name, line.row, line.coloured) for line in scene.lines] == [
+        *(("brick", 1, True), ("worn", 2, False), ("wall", 3, False), ("", 4, True)),
+    ]
+    assert [row[:2] for row in scene.sliders] == [("brick", "#8a3a2a"), ("worn", 0.4)]
+    assert (scene.lines[1].least, scene.lines[1].most) == (pytest.approx(0.4), pytest.approx(0.4))
+    assert scene.lines[2].least < 0.05
+    assert scene.lines[2].most > 0.95
+    assert scene.shimmer >= 0.0
+    pictures = room.pictures()
+    assert pictures["workshop texture"].shape == (96, 160, 4)
+    assert pictures["workshop levels"].shape[1] == wr.LEVELS_SHOWN * wr.LEVEL_SIDE
+    assert pictures["workshop lines"].shape == (wr.LINE_SIDE, wr.LINES_ACROSS * wr.LINE_SIDE, 4)
+
+
+def test_the_first_picture_comes_before_all_else(room):
+    room.workshop.handlers[wr.WorkshopSet](wr.WorkshopSet(WALL, size=(256, 256)))
+    while not room.pictures():
+        room.workshop.step()
+    first = room.pictures()["workshop texture"]
+    assert max(first.shape[:2]) == 128
+    while room.workshop.pending:
+        room.workshop.step()
+    whole = room.pictures()["workshop texture"].astype(float)
+    reduced = whole.reshape(128, 2, 128, 2, 4).mean(axis=(1, 3))
+    assert np.abs(reduced - first).mean() < 3.0
+
+
+def test_a_mistake_tells_its_place_and_leaves_what_was_right(room):
+    before = room.scene(WALL)
+    scene = room.scene(WALL + "fbn(x)")
+    assert not room.pictures()
+    assert scene.mistake is not None
+    assert scene.mistake.line == 4
+    assert scene.lines == before.lines
+    again = room.scene("fbn(x, y)")
+    assert (again.mistake.line, again.mistake.column) == (1, 1)
+    assert "fbn" in again.mistake.found
+    assert "fbm" in again.mistake.expected
+
+
+def test_values_that_fit_are_taken_and_others_are_not_in_the_way(room):
+    room.scene(WALL, values=Map({"brick": "#FFFFFF", "worn": 7.0, "gone": 1.0}), line=0)
+    assert (room.pictures()["workshop texture"] == 255).all()
+    scene = room.scene(WALL, values=Map({"brick": 3.0, "worn": "#000000"}))
+    assert scene.mistake is None
+
+
+def test_values_of_all_lines_are_told_at_a_place(room):
+    room.scene(WALL)
+    (told,) = room.ask(wr.WorkshopAsk((0, 0)))
+    assert told.place == (0, 0)
+    assert [len(values) for values in told.values] == [4, 1, 1, 4]
+    assert told.values[1] == (pytest.approx(0.4),)
+
+
+def test_nothing_is_done_while_the_pen_draws(room):
+    room.easel.live = object()
+    room.workshop.handlers[wr.WorkshopSet](wr.WorkshopSet(WALL))
+    assert not room.workshop.pending
+    room.easel.live = None
+    assert room.workshop.pending
+
+
+def test_what_is_looked_at_alone_is_marked_where_it_leaves_0_to_1(room):
+    room.scene("far = x*8 - 4\nfract(far)", line=0)
+    seen = room.pictures()["workshop texture"].astype(int)
+    assert (seen[0, 0] != seen[0, -1]).any()
+    assert seen[0, 0, 2] > seen[0, 0, 0]  # below 0: blue
+    assert seen[0, -1, 0] > seen[0, -1, 2]  # above 1: red
+    lit = room.scene("far = x*8 - 4\nfract(far)", line=0, lit=True)
+    assert lit.mistake is None
+    assert room.pictures()["workshop texture"].shape == (96, 160, 4)
+
+
+def test_all_words_are_told_once(room):
+    found = [one for one in room.ask(wr.WorkshopSet("x")) if isinstance(one, wr.WorkshopWords)]
+    assert {"fbm", "slider", "pick", "ramp"} <= {row.name for row in found[0].functions}
+    assert all(row.form.startswith(row.name) and row.about for row in found[0].functions)
+    assert not [one for one in room.ask(wr.WorkshopSet("y")) if isinstance(one, wr.WorkshopWords)]
