@@ -204,7 +204,7 @@ def language_words() -> wr.WorkshopWords:
     return wr.WorkshopWords((*rows, *_SETTERS), names)
 
 
-def fitting(written: WrittenText, given: Mapping[str, float | str]) -> tuple[tuple[str, float | str], ...]:
+def taken_values(written: WrittenText, given: Mapping[str, float | str]) -> tuple[tuple[str, float | str], ...]:
     """Returns the values of all sliders: those that are given and fit, else the usual ones."""
     return tuple((name, _fitted(slider, given.get(name))) for name, slider in written.sliders.items())
 
@@ -218,7 +218,7 @@ def _fitted(slider: Adjustable, value: object) -> float | str:
 def _read(asked: wr.WorkshopSet, before: _Known | None) -> _Known:
     """Returns a text that was read, and what its lines are.  WrittenError tells what is wrong with it."""
     written = read(asked.text)
-    values = fitting(written, asked.values)
+    values = taken_values(written, asked.values)
     check_woven(asked.text, values, 0, asked.period)
     made = Expression(asked.level, asked.text, asked.period, 0, 0, values)
     lines = tuple(
