@@ -1,7 +1,7 @@
 """Where strokes are narrow: there an example whose rim begins faint would show nothing but that.
 
-A pixel counts as narrow where no square of some pixels lies wholly inside near it.  Its shape is then widened, by as
-much as the example's rim is faint, so that it is grown as if it lay so much deeper.
+A pixel counts as narrow where no square of some pixels, level or tilted, lies wholly inside near it.  Its shape is then
+widened, by as much as the example's rim is faint, so that it is grown as if it lay so much deeper.
 """
 
 from __future__ import annotations
@@ -97,12 +97,16 @@ def _narrow(mask: Array, sides: tuple[Int, Int], offset: tuple[Int, Int], up: In
 
 @inner
 def _has_square(bits: Int, side: Int) -> bool:
-    """Tells whether a shape holds a square of so many pixels."""
+    """Tells whether a shape holds a square of so many pixels, or one that stands on a corner and is about as wide."""
+    upright, tilted = bits, bits
     for turn in range(2):
         step = np.uint64(SIDE if turn else 1)
         for _ in range(side - 1):
-            bits &= (bits >> step) & (FULL if turn else _NOT_LAST)
-    return bits != np.uint64(0)
+            upright &= (upright >> step) & (FULL if turn else _NOT_LAST)
+    for _ in range((side + 1) // 2):
+        beside = ((tilted >> np.uint64(1)) & _NOT_LAST) & ((tilted & _NOT_LAST) << np.uint64(1))
+        tilted &= beside & (tilted >> np.uint64(SIDE)) & (tilted << np.uint64(SIDE))
+    return upright != np.uint64(0) or tilted != np.uint64(0)
 
 
 @inner
