@@ -23,7 +23,10 @@ from bench.clock import Work, best, second_core, slowness
 from engine.files.atomic import replacing
 from engine.files.png_writer import write_png
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import EVERYWHERE
 from engine.texture.example import scanline, show
+from engine.texture.example.control import Channel
+from engine.texture.example.controlled import analysed_with
 from engine.texture.example.exemplar import Exemplar, analysed
 from engine.texture.example.parameters import NEW, Parameters
 from engine.texture.example.region import Region, empty, painted, refined, refining
@@ -31,6 +34,7 @@ from engine.texture.table import instance
 
 REPEATS = 7
 ANALYSIS, PREVIEW, DAB, STROKE, LATE = 0.3, 0.002, 0.010, 0.080, 0.006  # seconds
+TOLD = 1.5  # times as long as without maps, at most
 TOGETHER = 1.5  # how many times faster two threads are, at least
 TIMES_FASTER = {"the paper's scanline order": 3.0, "G'MIC's": 2.0}
 DIAMETER, SPACING = 64, 8
@@ -49,6 +53,7 @@ def measure(small: bool = False) -> Iterator[Figure | Skipped]:
         for parameters in (Parameters(), NEW):
             yield from _painting(analysed(pixels, None, parameters), side, repeats, slow)
     exemplar = analysed(pixels)
+    yield _told(48 if small else 200, repeats)
     yield _against_scanline(exemplar, 48 if small else 128, repeats)
     yield _threads(exemplar, FILL // 8 if small else FILL, repeats)
     yield _lateness(exemplar, 1 if small else 6)
@@ -107,6 +112,34 @@ def _painting(exemplar: Exemplar, side: int, repeats: int, slow: float) -> Itera
     rect = Rect.at(0, 0, mask.shape[1], mask.shape[0])
     taken = _processor(repeats, lambda: refined(painted(start, rect, mask)))
     yield _within(f"a stroke at once, {side}{how}", taken, STROKE, slow, f"{int(mask.sum()):,} pixels")
+
+
+def _told(side: int, repeats: int) -> Figure:
+    """Dabs along an arc, of an example that is turned as they go and has a wide rim, and of the same without."""
+    channels = Channel("orientation", 1.0, 24), Channel("rim", 1.0, 1, side // 4)
+    planes = np.zeros((2, side, side), np.uint8)
+    told = analysed_with(_rock(side), None, Parameters(), (channels, planes), EVERYWHERE)
+    spent: list[list[float]] = [[], []]
+    growing = [refined(_arc_dab(empty(one, 1), 0)) for one in (told, analysed(_rock(side)))]
+    for k in range(1, 4 if repeats == 1 else 60):
+        for n, old in enumerate(growing):
+            spent[n].append(min(_spent(lambda old=old, k=k: refined(_arc_dab(old, k))) for _ in range(2)))  # type: ignore[misc]
+        growing = [refined(_arc_dab(old, k)) for old in growing]
+    with_maps, without = (statistics.median(times) for times in spent)
+    name = f"a dab that follows the pen, with a wide rim, {side}"
+    return Figure(name, with_maps * 1e3, "ms", "the same example without maps", with_maps / without, TOLD)
+
+
+def _arc_dab(region: Region, k: int) -> Region:
+    """The dab number `k` of a stroke around a circle; pixels are told to run as that does."""
+    r, around = DIAMETER // 2, 200
+    turn = k * SPACING / around
+    x, y = round(around * np.sin(turn)), round(around - around * np.cos(turn))
+    rows, columns = np.mgrid[:DIAMETER, :DIAMETER] - (r - 0.5)
+    way = np.arctan2(columns + x, around - rows - y) * (128.0 / np.pi)
+    values = (np.rint(way).astype(int) & 255).astype(np.uint8)[None] if region.told else None
+    rect = Rect.at(x - r, y - r, DIAMETER, DIAMETER)
+    return painted(region, rect, rows**2 + columns**2 < r * r, values=values)
 
 
 def _stroke(length: int) -> np.ndarray:

@@ -115,9 +115,9 @@ def halved_planes(planes: np.ndarray, region: np.ndarray) -> np.ndarray:
 
 
 def counts(n: int, levels: int) -> bool:
-    """Tells whether the rim counts at a level: at the finest, which it would change all the time, what is coarser has
-    told."""
-    return n > 0 or levels == 1
+    """Tells whether the rim counts at a level: at the finest two, which it would change all the time, what is coarser
+    has told."""
+    return n > 1 or n == levels - 1
 
 
 def rim_of(region: np.ndarray, width: int, n: int) -> np.ndarray:

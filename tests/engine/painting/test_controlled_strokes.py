@@ -87,7 +87,7 @@ def test_copies_run_as_they_lie(session):
     assert planes[0, 60, 70] == 64
 
 
-@settings(deadline=None, max_examples=6)
+@settings(deadline=None, max_examples=4)
 @given(data=st.data())
 def test_however_it_is_drawn_it_is_what_its_recording_gives(meadow, data):
     session = fresh(meadow)

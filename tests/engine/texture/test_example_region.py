@@ -278,3 +278,22 @@ def test_a_straight_band_does_not_repeat(name):
     grown = refined(painted(empty(exemplar, 1), Rect(0, 0, 660, 100), np.ones((100, 660), bool)))
     found = sources(grown, Rect(40, 0, 620, 100))
     assert max((found[:, lag:] == found[:, :-lag]).mean() for lag in range(6, 60)) < 0.25
+
+
+def test_sources_are_as_control_channels_tell():
+    """Within, where a channel changes slowly; one that is laid over what is there takes its place."""
+    exemplar, rect = controlled(64, turns=16), Rect.at(-7, 5, 96, 96)
+    y, x = np.mgrid[:96, :96]
+    inside = np.hypot(y - 48, x - 48) < 46
+    for way in (x * 2 & 255, 200 + y & 255):
+        values = np.stack([way, np.full_like(way, 128)]).astype(np.uint8)
+        names = sources(refined(painted(empty(exemplar, 4), rect, inside, values=values)), rect)
+        found = exemplar.control.levels[0][:, names[inside] >> 16, names[inside] & 0xFFFF].astype(int)
+        apart = np.abs((found[0] - way[inside] + 128 & 255) - 128)
+        assert np.quantile(apart, 0.9) <= 16  # as far as copies are apart
+        assert np.median(np.abs(found[1] - 128)) <= 40
+    first = refined(painted(empty(exemplar, 4), rect, inside, values=np.zeros((2, 96, 96), np.uint8)))
+    same(
+        refined(painted(first, rect, inside, values=values)),
+        refined(painted(empty(exemplar, 4), rect, inside, values=values)),
+    )
