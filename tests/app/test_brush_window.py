@@ -43,7 +43,7 @@ def test_a_brush_is_saved_under_a_name_and_there_again(program, tmp_path):
     app.settled()
     app.keys(*["bracketright"] * 5)
     app.click("On stroke")
-    app.click("Wet paint")
+    app.click((app.box("Hardness")[2] - 12, app.at("Wet paint")[1]))
     app.click("save brush")
     app.box("name")
     app.fill("My pen")
