@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from engine.numeric.kernel import Array, Int, inner_uncounted, kernel, uncounted
+from engine.numeric.kernel import Array, Int, inner_uncounted, uncounted
 from engine.numeric.pigment import to_paint
 
 SIDE = 32
@@ -158,11 +158,11 @@ def _box(dabs: Array, first: Int, manner: Manner) -> tuple[float, float, float, 
     return x0, y0, x1, y1, wide
 
 
-@kernel
-def fill(slab: Array, slot: Int, seen: Array, selected: Array, told: Array) -> None:
-    """Writes what lies in a square, premultiplied float32 (4, 32, 32), and how far it is selected, (32, 32)."""
+@uncounted
+def fill(slab: Array, slot: Int, seen: Array, selected: Array, told: Array, vector: Array) -> None:
+    """Writes what lies in a square, premultiplied float32 (4, 32, 32), and how far it is selected, (32, 32).
+    `vector`, float64 (n - 1,), is written over."""
     n = slab.shape[3] // 2 - 1
-    vector = np.empty(n - 1)
     plane = slab[slot]
     for y in range(SIDE):
         for x in range(SIDE):

@@ -143,7 +143,7 @@ class Wetting:
             part = Rect.at(x * SIDE, y * SIDE, SIDE, SIDE).slices(rect)
             slot = self._known[code] = len(self._known)
             own = np.ascontiguousarray(seen[:, *part]), np.ascontiguousarray(selected[part])
-            fill(self._slab, slot, *own, self._manner.told)
+            fill(self._slab, slot, *own, self._manner.told, self._scratch[2])
 
 
 class WetMask(PlacedMask):
