@@ -81,7 +81,7 @@ def _compared(weaver: Weaver, term: Term, env: Env) -> Value:
 
 def threshold_side(weaver: Weaver, node: int, steep: float = 1.0) -> int:
     """Returns how many samples a threshold takes: more where something is lost."""
-    return side_for(0.5 * weaver.spreads.of(node).lost * steep)
+    return side_for(1.3 * weaver.spreads.of(node).lost * steep)
 
 
 def _chosen(weaver: Weaver, term: Term, env: Env) -> Value:

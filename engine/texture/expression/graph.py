@@ -194,4 +194,5 @@ def _octaves_cost(graph: Graph, told: Operation) -> float:
     """Of octaves near the size of a sample, several blocks must be looked at."""
     width = graph.value(told.parts[2]) or 0.0
     wide = [max(0.0, width * scale) for scale in told.numbers[::5]]
-    return sum(COST[Code.NOISE] if one <= 0.25 else 35.0 + 1.5 * (0.5 * one + 2.0) ** 2 for one in wide)
+    shared = 0.4 if told.slope else 1.0  # slopes are made beside the value
+    return shared * sum(COST[Code.NOISE] if one <= 0.25 else 35.0 + 1.5 * (0.5 * one + 2.0) ** 2 for one in wide)

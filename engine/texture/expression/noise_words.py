@@ -32,7 +32,7 @@ _CELLS_FADE: tuple[
     (0.118, 0.4, 2.2, (0.1, 0.7)),
     (0.283, 0.85, 1.8, (0.0, 0.01)),
 )
-_CELLS_SIDES = (0.1, 0.3, 1.0)  # of what they vary within a sample: errors that take more samples
+_CELLS_SIDES = (0.28, 0.8, 2.5)  # of what they vary within a sample: errors that take more samples
 _SEEN, _UNSEEN = 2.0, 8.0  # cells across a sample, between which a fold fades to its mean
 
 
@@ -164,7 +164,7 @@ def _folded(ridged: bool) -> Rule:
                         graph.add(graph.times(fold, -2.0 * _STEEP), graph.times(square, _STEEP * _STEEP)), 1.0
                     )
                 mean = graph.blend(mean, fold, graph.constant(seen))
-                sides.append(side_for(0.3 * spread.within * seen * gain / all_))
+                sides.append(side_for(0.8 * spread.within * seen * gain / all_))
             total = graph.add(total, graph.times(mean, gain / all_))
         return Value((total,), max(sides))
 

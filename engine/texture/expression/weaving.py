@@ -28,7 +28,7 @@ _NARROW = 1e-9
 _GAUSS = 0.28867513459481287  # of an interval: two points by which cubic functions have their mean
 _NOISY = 10.3  # a box so wide, squared, is folded as noise of variance 1 is
 _BELL = 0.84  # of the widths of a box: a smooth step so steep is nearly that of noise of its deviation
-_FEW, _MANY = 0.004, 0.016  # errors of a mean, up to which one sample, and four, are enough
+_FEW, _MANY = 0.01, 0.045  # errors of a mean, up to which one sample, and four, are enough
 
 
 def side_for(error: float) -> int:
