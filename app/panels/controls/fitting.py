@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from app.language import said
 
 _DOTS = "…"
-_SMALLEST = 0.8  # of the font, that a text on a button is drawn with
+_SMALLEST = 0.85  # of the font, that a text on a button is drawn with
 
 
 def ended(text: str, width: float) -> str:
