@@ -104,10 +104,10 @@ class WorkshopPanel(Panel):
             said.text_disabled("Click a picture to look at a line alone" if function is None else "")
             if function is not None:
                 imgui.same_line(0, 0)
-                imgui.text_disabled(f"{function.form}: {function.about}")
+                said.text_disabled(f"{function.form}: {function.about}")
             return
         text = f"{icons.WARNING} {mistake.line}:{mistake.column}  found {mistake.found}, expected {mistake.expected}"
-        imgui.text_colored(theme.vec(theme.look.warn), text)
+        said.text_colored(theme.vec(theme.look.warn), text)
         w.named("mistake")
         w.tooltip(f"{text}\nClick to go there; the last texture that was right stays in sight")
         if imgui.is_item_clicked():

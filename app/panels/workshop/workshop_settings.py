@@ -45,7 +45,7 @@ def _setting(desk: Desk, row: Setting) -> None:
             state.values = state.values.set(name, to_hex(picked) + value[7:])
         imgui.same_line()
         imgui.align_text_to_frame_padding()
-        imgui.text_unformatted(name)
+        said.text_unformatted(name)
         return
     whole = step > 0.0 and step == int(step) and least == int(least)
     form = "%.0f" if whole else ("%.1f" if most - least >= 50.0 else "%.2f")

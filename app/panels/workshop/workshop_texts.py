@@ -56,7 +56,7 @@ def _menu(desk: Desk) -> None:
     if state.files:
         imgui.separator()
     for path in state.files or ():
-        if imgui.menu_item(f"{PurePath(path).stem}##{path}", "", False)[0]:
+        if said.menu_item(f"{PurePath(path).stem}##{path}", "", False)[0]:
             desk.work(ReadText(PurePath(path)))
         w.named(PurePath(path).stem)
     imgui.end_popup()
