@@ -72,13 +72,16 @@ def test_keys_over_the_region_are_the_regions(desk, region, posted):
 
 
 def test_the_strip_is_as_tall_whatever_it_shows(desk):
-    strip = StripPanel()
-    heights = {strip.height(desk)}
-    for desk.examples.tab in example_state.TABS:
-        heights.add(strip.height(desk))
-    assert len(heights) == 1
-    desk.strip = ""
-    assert strip.height(desk) == 0
+    strip, context = StripPanel(), imgui.create_context()
+    try:
+        heights = {strip.height(desk)}
+        for desk.examples.tab in example_state.TABS:
+            heights.add(strip.height(desk))
+        assert len(heights) == 1
+        desk.strip = ""
+        assert strip.height(desk) == 0
+    finally:
+        imgui.destroy_context(context)
 
 
 def test_a_click_swaps_and_escape_does_not(desk, posted):
