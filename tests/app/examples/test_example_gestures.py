@@ -2,6 +2,7 @@
 
 import pytest
 from examples_at_hand import named
+from imgui_bundle import imgui
 
 from app import icons
 from app.actions.actions import ACTIONS
