@@ -10,10 +10,14 @@ from engine.painting.commands import parse
 from engine.painting.value import Painting, Refusal
 from engine.session.apply import apply
 from engine.session.session import Session
+from engine.studio.requests import Swatch
+from engine.studio.textures.swatches import painted
 from engine.texture.expression.defined import expression
+from engine.texture.expression.examined import shimmer
 from engine.texture.expression.library.bundled_texts import written_library
 
 NAMES = list(written_library())
+SHIMMER = 3.0  # of 255, rms
 DEFINED = {"do": "texture", "name": "wall", "maker": "expression"}
 
 
@@ -26,13 +30,17 @@ def test_each_is_whole(name):
     for level in (0, 10):
         seen = made.appearance(level, Rect.at(77 << level, 50 << level, 48, 48))
         assert np.isfinite(seen).all()
-        assert seen.std() > 0.004, level
+        assert seen.std() > 0.004 or not seen.any(), level  # between the lines of a pen there is nothing
 
 
 def test_they_are_brushes_of_a_group():
     found = written_brushes()
     assert {preset.group for preset in found} == {GROUP}
-    assert len({preset.name for preset in found}) == len(found) == len(NAMES)
+    assert len({preset.name for preset in found}) == len(found) == len(NAMES) >= 30
+    drawn = next(preset for preset in found if preset.name == "Basket")
+    picture = painted(Swatch(drawn.name, drawn.brush, (104, 44), textures=drawn.textures), Painting())
+    assert picture[3].max() > 0.9
+    assert picture[0].std() > 0.02
 
 
 def test_a_recording_names_one_and_keeps_its_text():
@@ -51,3 +59,13 @@ def test_a_text_names_others_where_they_are_or_elsewhere():
     assert (expression({"text": 'a = x; "snow"(a, y)'}, 0).appearance(2, rect) == plain).all()
     with pytest.raises(FieldError, match="such as snow"):
         expression({"text": '"snou"(x, y)'}, 0)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_none_shimmers(name):
+    """Each level, from 16 pixels of a period to 65,536, is the next finer one, reduced."""
+    made = expression({"text": written_library()[name].text}, -4)
+    for level in (-1, 0, 3, 7, 10):
+        period = 2.0 ** (level + 6)
+        rect = Rect.at(int(5.37 * period), int(3.81 * period), 24, 24)
+        assert shimmer(made, level, rect).rms * 255.0 <= SHIMMER, level
