@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from app.desk.holding.written_brushes import GROUP, written_brushes
+from app.desk.presets import bundled_folder, load_brushes
 from engine.checks.field_error import FieldError
 from engine.numeric.address import Rect
 from engine.painting.commands import parse
 from engine.painting.value import Painting, Refusal
 from engine.session.apply import apply
 from engine.session.session import Session
+from engine.studio.preparing.job_queue import expected
 from engine.studio.requests import Swatch
 from engine.studio.textures.swatches import painted
 from engine.texture.expression.defined import expression
@@ -37,10 +39,18 @@ def test_they_are_brushes_of_a_group():
     found = written_brushes()
     assert {preset.group for preset in found} == {GROUP}
     assert len({preset.name for preset in found}) == len(found) == len(NAMES) >= 30
+    others, _ = load_brushes(bundled_folder())
+    taken = {one.name.casefold() for preset in others for one in (preset, *preset.textures)}
+    assert not taken & {preset.name.casefold() for preset in found}
     drawn = next(preset for preset in found if preset.name == "Basket")
     picture = painted(Swatch(drawn.name, drawn.brush, (104, 44), textures=drawn.textures), Painting())
     assert picture[3].max() > 0.9
     assert picture[0].std() > 0.02
+
+
+def test_one_of_them_is_made_ready_for_all():
+    listed = [Swatch("", one.brush, (104, 44), textures=one.textures) for one in written_brushes()]
+    assert len(expected(listed)) == len(expected(listed[:1])) == len(expected(())) + 1
 
 
 def test_a_recording_names_one_and_keeps_its_text():

@@ -51,7 +51,7 @@ def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
     come one after the other, while a second process has others to compile; what refines pictures, matching, the
     brushes that need these, and files after all others, as they take long, and who saves waits for it where nobody
     sees it."""
-    listed = list(swatches)
+    listed = _one_written(swatches)
     late = [swatch for swatch in listed if _is_refined(swatch)]
     grow = [swatch for swatch in listed if swatch.brush.row.grows and swatch not in late]
     others = [swatch for swatch in listed if not swatch.brush.row.grows and swatch not in late]
@@ -59,6 +59,18 @@ def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
     ordered = (*others[:at], *grow[:1], *others[at:], *grow[1:])
     jobs = (*map(job_of, ordered), WRITTEN_TEXTURES, LEARNT_DETAIL, STRUCTURE, *map(job_of, late), FILES)
     return tuple(dict.fromkeys(jobs))
+
+
+def _one_written(swatches: Iterable[Swatch]) -> list[Swatch]:
+    """Returns swatches with one of those whose only textures are written: all texts run in one machine."""
+    out: list[Swatch] = []
+    met = False
+    for swatch in swatches:
+        written = bool(swatch.textures) and all(one.maker == "expression" for one in swatch.textures)
+        if not (written and met):
+            out.append(swatch)
+        met = met or written
+    return out
 
 
 def _is_refined(swatch: Swatch) -> bool:
