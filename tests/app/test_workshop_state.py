@@ -1,18 +1,25 @@
 """The workshop as the window knows it: texts that teach, words that are completed, what is looked at, files."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from immutables import Map
 
+from app.desk.workshop.explained import explained
 from app.desk.workshop.lessons import FIRST_TEXT, LESSONS
 from app.desk.workshop.workshop_state import WorkshopState
 from app.desk.workshop.workshop_work import ReadText, WriteText
 from app.panels.workshop import text_colours as colours
 from app.panels.workshop.completing import function_around, offers, word_before
+from engine.brush.parts import Component
+from engine.brush.settings import Brush
+from engine.numeric.address import Rect
+from engine.painting.commands import DefineTexture
 from engine.studio.workshop.workshop import language_words
 from engine.studio.workshop.workshop_records import WorkshopAsk, WorkshopSet
 from engine.texture.expression.defined import expression
+from engine.texture.procedural import Sawtooth, Squares, Stripes
 
 WORDS = language_words()
 NAMES = colours.Names(frozenset(row.name for row in WORDS.functions), frozenset("xy"), frozenset({"wall"}))
@@ -27,15 +34,14 @@ def test_lessons_are_right_and_begin_with_what_they_teach(text):
 def test_a_word_is_completed_by_what_begins_with_it_then_by_what_holds_it():
     found = [offer.text for offer in offers("bri", WORDS, ())]
     assert found[:2] == ["bricks(", "bricks_random("]
-    assert next(offer.text for offer in offers("wal", WORDS, {"wall", "tone"})) == "wall"
+    assert offers("wal", WORDS, {"wall", "tone"})[0].text == "wall"
     assert offers("bricks_random", WORDS, ()) == ()
     assert offers("", WORDS, {"wall"}) == ()
 
 
 @pytest.mark.parametrize(
     ("line", "at", "word"),
-    [("a = fb", 6, "fb"), ("a = fbm(x", 9, "x"), ("// nois", 7, ""), ("#8a3", 4, ""), ("a = ", 4, ""),
-     ("a = fbm", 6, "fb")],
+    [("a = fb", 6, "fb"), ("fbm(x", 5, "x"), ("// no", 5, ""), ("#8a3", 4, ""), ("a=", 2, ""), ("a = fbm", 6, "fb")],
 )  # fmt: skip
 def test_the_word_before_the_caret(line, at, word):
     assert word_before(line, at) == word
@@ -109,3 +115,28 @@ def test_a_text_comes_back_from_its_file_with_its_period(tmp_path):
     (tmp_path / "bad.txt").write_bytes(b"\xff\xfe")
     with pytest.raises(OSError, match="UTF-8"):
         ReadText(tmp_path / "bad.txt").carry_out()
+
+
+WAVES = {"stripes": Stripes, "sawtooth": Sawtooth, "squares": Squares}
+
+
+@pytest.mark.parametrize("kind", list(WAVES))
+@pytest.mark.parametrize(("angle", "phase"), [(0.0, 0.0), (30.0, 0.3), (90.0, 0.7)])
+def test_a_brush_is_explained_by_a_text_that_shows_the_same(kind, angle, phase):
+    told = Map({"period": 24.0, "angle": angle, "phase": phase})
+    found = explained(Brush(colour="#000000", ink=(Component(kind, 1.0, "#ffffff", told),)), ())
+    rect = Rect(0, 0, 48, 48)
+    seen = expression({"text": found.text, "period": found.period}, 0).means(0, rect)[0]
+    wanted = 0.5 + 0.5 * WAVES[kind](0, 24.0, angle, phase).appearance(0, rect)[0]
+    assert np.abs(seen - wanted).mean() < 1e-3
+
+
+def test_a_written_texture_is_explained_by_its_own_text_and_a_picture_not_at_all():
+    told = Map({"text": "a = slider(1, 0, 2)\nx*a", "period": 96.0, "values": Map({"a": 2.0})})
+    ink = (Component("Mine", 1.0),)
+    found = explained(Brush(ink=ink), (DefineTexture("Mine", "expression", told),))
+    assert found == (told["text"], Map({"a": 2.0}), 96.0)
+    assert explained(Brush(ink=ink), (DefineTexture("Mine", "image", Map({"path": "a.png"})),)) is None
+    mixed = explained(Brush(ink=(*ink, Component("rock", 0.5, "#112233"))), ())
+    assert "left out" in mixed.text
+    expression({"text": mixed.text, "period": mixed.period}, 0)

@@ -18,6 +18,7 @@ from engine.studio.workshop.workshop_records import (
     WorkshopValues,
     WorkshopWords,
 )
+from engine.texture.expression.library.bundled_texts import LibraryText
 
 _MAKER, WRITTEN = "expression", "Written"
 USUAL_PERIOD, PERIODS = 64.0, (4.0, 4096.0)  # pixels: usual, and what may be set
@@ -47,6 +48,7 @@ class WorkshopState:
     words: WorkshopWords = WorkshopWords()  # noqa: RUF009
     seen: WorkshopValues | None = None
     files: tuple[str, ...] | None = None  # that are kept; None: nobody has looked yet
+    library: tuple[LibraryText, ...] = ()  # that come along
     _posted: WorkshopSet | None = None
     _asked: tuple[int, int] | None = None
 

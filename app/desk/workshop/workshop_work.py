@@ -9,6 +9,7 @@ from pathlib import Path, PurePath
 import platformdirs
 
 from app.desk.desk import Desk, FileWork
+from engine.texture.expression.library.bundled_texts import written_library
 
 TEXT = ".inktexture"  # the ending of a written texture
 TEXTS = (TEXT, ".txt")
@@ -23,16 +24,18 @@ def own_texts() -> Path:
 
 @dataclass(frozen=True, slots=True)
 class ListTexts(FileWork):
-    """Looks which are kept."""
+    """Looks which texts are kept, and which come along."""
 
     def carry_out(self) -> tuple[str, ...]:
-        """Returns their paths, by name."""
+        """Returns the paths of those that are kept, by name."""
+        written_library()  # read now, on this thread
         folder = own_texts()
         return tuple(sorted(map(str, folder.glob(f"*{TEXT}")))) if folder.is_dir() else ()
 
     def arrive(self, desk: Desk, found: tuple[str, ...]) -> None:
         """Lists them."""
         desk.workshop.files = found
+        desk.workshop.library = tuple(written_library().values())
 
 
 @dataclass(frozen=True, slots=True)

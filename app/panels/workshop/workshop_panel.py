@@ -75,7 +75,7 @@ class WorkshopPanel(Panel):
         imgui.end_child()
         imgui.same_line()
         imgui.begin_child("settings", ImVec2(0, 0))
-        imgui.begin_child("sliders", ImVec2(0, -imgui.get_frame_height_with_spacing()))
+        imgui.begin_child("sliders", ImVec2(0, -2 * imgui.get_frame_height_with_spacing()))
         draw_settings(desk)
         imgui.end_child()
         self._uses(desk)
@@ -96,7 +96,7 @@ class WorkshopPanel(Panel):
         mistake = state.scene.mistake if state.scene.text == state.text else None
         self._marks.begin(desk)
         shown = FieldShown(mistake, state.words, self._marks.draw, self._marks.note)
-        self._field.draw(ImVec2(room.x, room.y - line - 2 * gap), shown)
+        self._field.draw(ImVec2(room.x, room.y - 2 * line - 2 * gap), shown)
         if self._field.text != state.text:
             state.edit(self._field.text)
         if mistake is None:
@@ -104,10 +104,14 @@ class WorkshopPanel(Panel):
             said.text_disabled("Click a picture to look at a line alone" if function is None else "")
             if function is not None:
                 imgui.same_line(0, 0)
-                said.text_disabled(f"{function.form}: {function.about}")
+                imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
+                imgui.text_wrapped(f"{function.form}: {function.about}")
+                imgui.pop_style_color()
             return
         text = f"{icons.WARNING} {mistake.line}:{mistake.column}  found {mistake.found}, expected {mistake.expected}"
-        said.text_colored(theme.vec(theme.look.warn), text)
+        imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.warn))
+        imgui.text_wrapped(text)
+        imgui.pop_style_color()
         w.named("mistake")
         w.tooltip(f"{text}\nClick to go there; the last texture that was right stays in sight")
         if imgui.is_item_clicked():
@@ -116,9 +120,9 @@ class WorkshopPanel(Panel):
     def _uses(self, desk: Desk) -> None:
         gap, room, state = 2 * desk.scale, imgui.get_content_region_avail().x, desk.workshop
         for i, (how, icon, text, hint) in enumerate(_USES):
-            if i:
+            if i > 1:
                 imgui.same_line(0, gap)
-            wide = (room - 2 * gap) * (0.46, 0.31, 0.23)[i]
+            wide = (room - gap) / 2 if i else room
             imgui.push_style_color(imgui.Col_.button, theme.vec(theme.look.raised if i else theme.look.accent_soft))
             if w.text_button(f"{icon} {text}".strip(), hint, enabled=state.right and state.use is None, width=wide):
                 name = pictured.free_texture_name(desk, state.name or WRITTEN)

@@ -7,7 +7,10 @@ from pathlib import PurePath
 from imgui_bundle import imgui
 
 from app import icons
+from app.desk import palette
 from app.desk.desk import Desk
+from app.desk.hand import mixed_now
+from app.desk.workshop.explained import explained
 from app.desk.workshop.lessons import FIRST_TEXT, LESSONS
 from app.desk.workshop.workshop_work import ListTexts, ReadText
 from app.language import said
@@ -37,12 +40,25 @@ def draw_texts(desk: Desk, field: TextField) -> None:
     if w.icon_button("keep text", icons.DISK, "Keep it as a small file, which others can open", enabled=state.right):
         desk.asked.show("texture text to")
     imgui.same_line(0, gap)
+    hint = "Explain: what the brush paints with, as a text, as far as the language has words for it"
+    if w.icon_button("explain brush", icons.BRUSH, hint, enabled=bool(mixed_now(desk.hand).ink)):
+        _explain(desk)
+    imgui.same_line(0, gap)
     back, again = field.travels
     if w.icon_button("text back", icons.UNDO, "Take back what was written  (Ctrl+Z in the text)", enabled=back):
         field.travel(-1)
     imgui.same_line(0, gap)
     if w.icon_button("text again", icons.REDO, "Write it again  (Ctrl+Y in the text)", enabled=again):
         field.travel(1)
+
+
+def _explain(desk: Desk) -> None:
+    """Opens what the brush paints with as a text."""
+    found = explained(mixed_now(desk.hand), palette.belonging(desk)[0])
+    if found is None:
+        desk.say("The language has no words for what this brush paints with", bad=True)
+        return
+    desk.workshop.take(found.text, desk.hand.preset, found.values, found.period)
 
 
 def _menu(desk: Desk) -> None:
@@ -53,6 +69,12 @@ def _menu(desk: Desk) -> None:
         if said.menu_item(lesson.title, "", False)[0]:
             state.take(lesson.text, lesson.title.lstrip("0123456789 "))
         w.named(lesson.title)
+    imgui.separator()
+    for one in state.library:
+        if said.menu_item(f"{one.title}##library", "", False)[0]:
+            state.take(one.text, one.title)
+        w.named(one.title)
+        w.tooltip(one.about)
     if state.files:
         imgui.separator()
     for path in state.files or ():
