@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from immutables import Map
 
 from app.desk.workshop.explained import explained
-from app.desk.workshop.lessons import FIRST_TEXT, LESSONS
 from app.desk.workshop.workshop_state import WorkshopState
 from app.desk.workshop.workshop_work import ReadText, WriteText
 from app.panels.workshop import text_colours as colours
@@ -19,16 +18,17 @@ from engine.painting.commands import DefineTexture
 from engine.studio.workshop.workshop import language_words
 from engine.studio.workshop.workshop_records import WorkshopAsk, WorkshopSet
 from engine.texture.expression.defined import expression
+from engine.texture.expression.library.lesson_texts import lessons
 from engine.texture.procedural import Sawtooth, Squares, Stripes
 
 WORDS = language_words()
 NAMES = colours.Names(frozenset(row.name for row in WORDS.functions), frozenset("xy"), frozenset({"wall"}))
 
 
-@pytest.mark.parametrize("text", [FIRST_TEXT, *(lesson.text for lesson in LESSONS)])
-def test_lessons_are_right_and_begin_with_what_they_teach(text):
-    assert text.startswith("//")
-    expression({"text": text}, -4)
+@pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.title)
+def test_lessons_are_right_and_begin_with_what_they_teach(lesson):
+    assert lesson.about.startswith(f"{lesson.title}: ")
+    expression({"text": lesson.text}, -4)
 
 
 def test_a_word_is_completed_by_what_begins_with_it_then_by_what_holds_it():

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from immutables import Map
 
-from app.desk.workshop.lessons import FIRST_TEXT
 from engine.painting.commands import DefineTexture
 from engine.studio.requests import Request
 from engine.studio.workshop.workshop_records import (
@@ -32,7 +31,7 @@ class WorkshopState:
     to take the text anew; `over`: the pixel of the level under the pointer; `use`: what is to be done with which
     texture once the painting has it."""
 
-    text: str = FIRST_TEXT
+    text: str = ""
     name: str = ""
     values: Map[str, float | str] = Map()  # noqa: RUF009  # it never changes
     period: float = USUAL_PERIOD
@@ -41,7 +40,7 @@ class WorkshopState:
     origin: tuple[int, int] = (0, 0)
     size: tuple[int, int] = (256, 256)
     lit: bool = False
-    put: bool = True
+    put: bool = False
     over: tuple[int, int] | None = None
     use: tuple[str, str] | None = None
     scene: WorkshopScene = WorkshopScene("")  # noqa: RUF009
@@ -49,6 +48,7 @@ class WorkshopState:
     seen: WorkshopValues | None = None
     files: tuple[str, ...] | None = None  # that are kept; None: nobody has looked yet
     library: tuple[LibraryText, ...] = ()  # that come along
+    lessons: tuple[LibraryText, ...] = ()  # that teach, in order
     _posted: WorkshopSet | None = None
     _asked: tuple[int, int] | None = None
 

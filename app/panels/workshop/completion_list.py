@@ -6,6 +6,7 @@ from imgui_bundle import ImVec2, imgui
 from imgui_bundle import imgui_color_text_edit as edit
 
 from app import theme
+from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.workshop.completing import Offer, offers, word_before
 from app.panels.workshop.text_colours import Names
@@ -116,11 +117,11 @@ class CompletionList:
         imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + high))
         x, y = corner.x + padding.x, corner.y + padding.y
         imgui.push_font(theme.letters, 0.0)
-        painter.add_text(ImVec2(x, y), theme.packed(theme.look.text), offer.form)
+        said.add_text(painter, ImVec2(x, y), theme.packed(theme.look.text), offer.form)
         x += imgui.calc_text_size(offer.form).x + padding.x
         imgui.pop_font()
         painter.push_clip_rect(corner, ImVec2(corner.x + wide, corner.y + high), True)
-        painter.add_text(ImVec2(x, y), theme.packed(theme.look.quiet), offer.about)
+        said.add_text(painter, ImVec2(x, y), theme.packed(theme.look.quiet), offer.about)
         painter.pop_clip_rect()
 
     def _accept(self, number: int) -> None:

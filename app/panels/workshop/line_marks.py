@@ -6,6 +6,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.desk.desk import Desk
+from app.language import said
 from app.panels.controls import widgets as w
 from engine.studio.workshop.workshop_records import LINES_ACROSS, WorkshopLine
 
@@ -78,15 +79,16 @@ def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
     """Draws a line's picture larger, and what is known of it."""
     side, padding = _LARGE * desk.scale, imgui.get_style().window_padding
     shown = desk.pictures.get("workshop lines")
-    text = f"{line.cost:,.0f} ns, {line.samples} " + ("sample" if line.samples == 1 else "samples") + " a pixel"
-    about = f"{'brightness ' if line.coloured else ''}{line.least:.2f} … {line.most:.2f}"
+    samples = "1 sample" if line.samples == 1 else f"{line.samples} samples"
+    text = f"{line.cost:,.0f} ns a pixel, {samples}"
+    about = f"{line.least:.2f} … {line.most:.2f}"
     high = side + 3 * imgui.get_text_line_height_with_spacing()
-    wide = max(side, imgui.calc_text_size(text).x, imgui.calc_text_size(line.name).x)
+    wide = max(side, said.calc_text_size(text).x, said.calc_text_size(line.name).x)
     imgui.set_next_window_size(ImVec2(wide, high) + padding * 2)
     if imgui.begin_tooltip():
         if shown is not None:
             imgui.image(shown, ImVec2(side, side), *_corners(number, len(desk.workshop.scene.lines)))
-        imgui.text_unformatted(line.name or "the texture")
-        imgui.text_disabled(about)
-        imgui.text_disabled(text)
+        said.text_unformatted(line.name or "the texture")
+        said.text_disabled(about)
+        said.text_disabled(text)
         imgui.end_tooltip()

@@ -102,7 +102,7 @@ class TextField:
         self._mark(shown.mistake)
         corner, painter = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
         painter.add_rect_filled(corner, corner + size, theme.packed(theme.look.field), imgui.get_style().frame_rounding)
-        imgui.push_font(theme.letters, 0.0)
+        imgui.push_font(theme.letters, theme.FONT_SIZE - 1.0)
         self._completion.take_keys(self.focused)
         self._editor.render("##text", size)
         w.placed("text of the texture", corner, corner + size)

@@ -8,6 +8,7 @@ from imgui_bundle import ImVec2, imgui
 from imgui_bundle import imgui_color_text_edit as edit
 
 from app import theme
+from app.language import said
 from app.panels.workshop import text_colours
 from app.panels.workshop.text_colours import Names
 
@@ -32,7 +33,7 @@ def draw_letters(editor: edit.TextEditor, box: tuple[ImVec2, ImVec2], names: Nam
             x = at.x + part.at * wide
             if part.kind == text_colours.COLOUR_PART:
                 _underlined(painter, ImVec2(x, at.y), ImVec2(len(part.text) * wide, high), part.text)
-            painter.add_text(ImVec2(x, at.y + down), theme.packed(text_colours.tone(part)), part.text)
+            said.add_text(painter, ImVec2(x, at.y + down), theme.packed(text_colours.tone(part)), part.text)
         _note(painter, note(row), ImVec2(end.x, at.y), high)
     painter.pop_clip_rect()
 
@@ -52,7 +53,7 @@ def _note(painter: imgui.ImDrawList, text: str, end: ImVec2, high: float) -> Non
     size, pad = imgui.calc_text_size(text), imgui.get_style().frame_padding.x
     left, down = end.x - size.x - 2 * pad, (high - size.y) / 2
     painter.add_rect_filled(ImVec2(left - pad, end.y), ImVec2(end.x, end.y + high), theme.packed(theme.look.field))
-    painter.add_text(ImVec2(left, end.y + down), theme.packed(theme.look.accent), text)
+    said.add_text(painter, ImVec2(left, end.y + down), theme.packed(theme.look.accent), text)
 
 
 def _selection(editor: edit.TextEditor, painter: imgui.ImDrawList, number: int, rows: range) -> None:

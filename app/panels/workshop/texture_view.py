@@ -55,11 +55,11 @@ class TextureView:
         text = f"level {state.level}, {across:.3g} across".replace("-", "−")
         _label(ImVec2(corner.x + 8, end.y - imgui.get_text_line_height() - 6), text)
         side = imgui.get_frame_height()
-        imgui.set_cursor_screen_pos(ImVec2(end.x - side - 4, corner.y + 4))
+        _ground(ImVec2(end.x - side - 4, corner.y + 4), side)
         if w.icon_button("as relief", icons.MOUNTAIN, "As heights in the light: bright is high", on=state.lit):
             state.lit = not state.lit
         if state.level or state.origin != (0, 0):
-            imgui.set_cursor_screen_pos(ImVec2(end.x - side - 4, corner.y + 8 + side))
+            _ground(ImVec2(end.x - side - 4, corner.y + 8 + side), side)
             if w.icon_button("back to 1:1", icons.HOME, "Back to level 0, where it begins"):
                 state.look(0, (0, 0))
         imgui.set_cursor_screen_pos(ImVec2(corner.x, end.y + imgui.get_style().item_spacing.y))
@@ -76,7 +76,7 @@ class TextureView:
             state.look(state.level, (before[0] + int(x), before[1] + int(y)))
             self._dragged = x - (state.origin[0] - before[0]), y - (state.origin[1] - before[1])
         if hovered and io.mouse_wheel:
-            state.zoom(1 if io.mouse_wheel > 0 else -1, at)
+            state.zoom(round(io.mouse_wheel) or (1 if io.mouse_wheel > 0 else -1), at)
 
 
 def _levels(desk: Desk, size: tuple[float, float]) -> None:
@@ -111,6 +111,13 @@ def _levels(desk: Desk, size: tuple[float, float]) -> None:
 
 def _side(length: float) -> int:
     return max(_LEAST, min(_MOST, int(length)))
+
+
+def _ground(at: ImVec2, side: float) -> None:
+    """Draws a dark ground for a button over the picture, which comes next."""
+    end = ImVec2(at.x + side, at.y + side)
+    imgui.get_window_draw_list().add_rect_filled(at, end, theme.packed(theme.look.field, 0.8), 4)
+    imgui.set_cursor_screen_pos(at)
 
 
 def _label(at: ImVec2, text: str) -> None:

@@ -105,12 +105,12 @@ class WorkshopPanel(Panel):
             if function is not None:
                 imgui.same_line(0, 0)
                 imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
-                imgui.text_wrapped(f"{function.form}: {function.about}")
+                said.text_wrapped(f"{function.form}: {function.about}")
                 imgui.pop_style_color()
             return
         text = f"{icons.WARNING} {mistake.line}:{mistake.column}  found {mistake.found}, expected {mistake.expected}"
         imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.warn))
-        imgui.text_wrapped(text)
+        said.text_wrapped(text)
         imgui.pop_style_color()
         w.named("mistake")
         w.tooltip(f"{text}\nClick to go there; the last texture that was right stays in sight")

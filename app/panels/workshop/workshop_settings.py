@@ -86,7 +86,7 @@ def _facts(desk: Desk) -> None:
     w.tooltip("What it costs, with all that it refers to; what has no exact mean is looked at in 4 or 16 points")
     if scene.shimmer >= 0.0:
         quiet = scene.shimmer <= 3.0
-        text = f"{scene.shimmer:.2f} of 255 from the next level"
+        text = f"Shimmer {scene.shimmer:.2f} of 255"
         imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet if quiet else theme.look.warn))
         said.text_unformatted(text)
         imgui.pop_style_color()

@@ -11,7 +11,6 @@ from app.desk import palette
 from app.desk.desk import Desk
 from app.desk.hand import mixed_now
 from app.desk.workshop.explained import explained
-from app.desk.workshop.lessons import FIRST_TEXT, LESSONS
 from app.desk.workshop.workshop_work import ListTexts, ReadText
 from app.language import said
 from app.panels.controls import widgets as w
@@ -32,7 +31,7 @@ def draw_texts(desk: Desk, field: TextField) -> None:
     _menu(desk)
     imgui.same_line(0, gap)
     if w.icon_button("new text", icons.ADD, "Another text, from the beginning"):
-        state.take(FIRST_TEXT)
+        state.take(state.lessons[0].text if state.lessons else "")
     imgui.same_line(0, gap)
     if w.icon_button("open text", icons.FOLDER, "Open a texture that was written: its file may be dropped here, too"):
         desk.asked.show("texture text")
@@ -65,9 +64,9 @@ def _menu(desk: Desk) -> None:
     if not imgui.begin_popup("texts"):
         return
     state = desk.workshop
-    for lesson in LESSONS:
-        if said.menu_item(lesson.title, "", False)[0]:
-            state.take(lesson.text, lesson.title.lstrip("0123456789 "))
+    for number, lesson in enumerate(state.lessons):
+        if said.menu_item(f"{number}  {lesson.title}##lesson", "", False)[0]:
+            state.take(lesson.text, lesson.title)
         w.named(lesson.title)
     imgui.separator()
     for one in state.library:

@@ -29,7 +29,7 @@ class LibraryText:
 @lru_cache(maxsize=1)
 def written_library() -> Mapping[str, LibraryText]:
     """Returns all texts that come along, by name."""
-    return MappingProxyType({path.stem: _read(path) for path in sorted(_TEXTS.glob("*.txt"))})
+    return MappingProxyType({path.stem: library_text(path) for path in sorted(_TEXTS.glob("*.txt"))})
 
 
 def like_in_library(name: str) -> str:
@@ -38,7 +38,8 @@ def like_in_library(name: str) -> str:
     return "the name of a written texture that comes along" + (f", such as {like}" if like else "")
 
 
-def _read(path: Path) -> LibraryText:
+def library_text(path: Path) -> LibraryText:
+    """Returns a text of a file."""
     text = path.read_text("utf-8")
     about = text.partition("\n")[0].removeprefix("//").strip()
     title = about.partition(":")[0].partition(",")[0].strip()
