@@ -128,3 +128,14 @@ def test_all_words_are_told_once(room):
     assert {"fbm", "slider", "pick", "ramp"} <= {row.name for row in found[0].functions}
     assert all(row.form.startswith(row.name) and row.about for row in found[0].functions)
     assert not [one for one in room.ask(wr.WorkshopSet("y")) if isinstance(one, wr.WorkshopWords)]
+
+
+def test_a_line_looked_at_before_all_are_made_has_them_made_all_the_same(room):
+    room.workshop.handlers[wr.WorkshopSet](wr.WorkshopSet(WALL, size=SIZE))
+    while not room.pictures():
+        room.workshop.step()
+    scene = room.scene(WALL, line=2)
+    assert scene.lines[2].most > 0.95
+    assert "workshop lines" in room.pictures()
+    room.scene(WALL, line=0)
+    assert "workshop lines" not in room.pictures()

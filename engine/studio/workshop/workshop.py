@@ -6,7 +6,7 @@ A newer text takes the place of an older one.  One that is wrong leaves all pict
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from engine.studio.textures import structure_ready
 from engine.studio.workshop import workshop_records as wr
 from engine.studio.workshop.workshop_pictures import as_relief, as_seen, brightness, histogram_of, in_pieces
 from engine.texture.expression.defined import check_woven
-from engine.texture.expression.examined import line_looks, shimmer, values_at
+from engine.texture.expression.examined import line_look, shimmer, values_at
 from engine.texture.expression.language import FUNCTIONS, read
 from engine.texture.expression.written import PICK, PLACE_NAMES, SLIDER, Adjustable, WrittenError, WrittenText
 from engine.texture.expression.written_ink import Expression
@@ -40,7 +40,7 @@ class _Known:
     asked: wr.WorkshopSet
     made: Expression
     scene: wr.WorkshopScene
-    atlas: np.ndarray = field(default_factory=lambda: np.zeros((1, 1, 4), np.uint8))
+    whole: bool = False  # whether all its small pictures were made
 
     @property
     def number(self) -> int:
@@ -102,15 +102,12 @@ class Workshop(Owned):
         before, self._known = self._known, known
         yield from self._ready()
         yield from self._picture(known)
-        if before is None or not _alike(before.asked, asked):
+        if before is None or not _alike(before, asked):
             yield from self._lines(known)
             yield from self._levels(known)
         else:
-            lines = tuple(
-                replace(line, least=old.least, most=old.most)
-                for line, old in zip(known.scene.lines, before.scene.lines, strict=True)
-            )
-            self._tell(lines=lines)
+            self._tell(lines=known.scene.lines)
+        known.whole = True
         yield
         side = min(_SHIMMERS, *asked.size)
         rect = Rect.at(*asked.origin, side, side)
@@ -143,7 +140,7 @@ class Workshop(Owned):
             rect = whole.zoomed(-level)
             rim = int(asked.lit)
             rimmed = Rect(rect.x0 - rim, rect.y0 - rim, rect.x1 + rim, rect.y1 + rim)
-            cost = known.scene.lines[number].cost
+            cost = line_look(known.made, number, asked.level - level).cost
             for planes in in_pieces(known.made, number, asked.level - level, rimmed, cost):
                 if planes is None:
                     yield
@@ -165,6 +162,9 @@ class Workshop(Owned):
         atlas = np.zeros((rows * side, wr.LINES_ACROSS * side, 4), np.uint8)
         told = list(known.scene.lines)
         for n in range(count):
+            look = line_look(known.made, n, asked.level)
+            told[n] = replace(told[n], coloured=look.coloured, samples=look.samples, cost=look.cost)
+            yield
             for planes in in_pieces(known.made, n, asked.level - coarser, Rect.at(x, y, side, side), told[n].cost):
                 if planes is not None:
                     top, left = n // wr.LINES_ACROSS * side, n % wr.LINES_ACROSS * side
@@ -221,10 +221,9 @@ def _read(asked: wr.WorkshopSet, before: _Known | None) -> _Known:
     values = taken_values(written, asked.values)
     check_woven(asked.text, values, 0, asked.period)
     made = Expression(asked.level, asked.text, asked.period, 0, 0, values)
-    lines = tuple(
-        wr.WorkshopLine(look.name, look.row, look.coloured, look.samples, look.cost)
-        for look in line_looks(made, asked.level)
-    )
+    lines = tuple(wr.WorkshopLine(line.name, written.place(line.at)[0], False, 1, 0.0) for line in written.lines)
+    if before is not None and _alike(before, asked):
+        lines = before.scene.lines
     sliders = tuple((name, s.usual, s.least, s.most, s.step) for name, s in written.sliders.items())
     drawn = before.scene.drawn if before is not None else 0
     scene = wr.WorkshopScene(asked.text, None, lines, sliders, drawn=drawn)
@@ -233,9 +232,9 @@ def _read(asked: wr.WorkshopSet, before: _Known | None) -> _Known:
     return _Known(asked, made, scene)
 
 
-def _alike(one: wr.WorkshopSet, other: wr.WorkshopSet) -> bool:
-    """Tells whether the small pictures of two are the same."""
-    return replace(one, line=-1, lit=False) == replace(other, line=-1, lit=False)
+def _alike(known: _Known, asked: wr.WorkshopSet) -> bool:
+    """Tells whether the small pictures of what is known are all there, and those of what is asked for."""
+    return known.whole and replace(known.asked, line=-1, lit=False) == replace(asked, line=-1, lit=False)
 
 
 def _inner(whole: Rect, rect: Rect, coarser: int) -> Rect:

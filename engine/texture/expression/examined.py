@@ -38,14 +38,14 @@ class Shimmer:
 
 def line_looks(made: Expression, level: int) -> tuple[LineLook, ...]:
     """Returns what each line is at a level."""
-    written = read(made.text)
-    out = []
-    for number, line in enumerate(written.lines):
-        found = _line(made, number, level)
-        out.append(
-            LineLook(line.name, written.place(line.at)[0], found.channels == 4, found.side * found.side, found.cost)
-        )
-    return tuple(out)
+    return tuple(line_look(made, number, level) for number in range(len(read(made.text).lines)))
+
+
+def line_look(made: Expression, number: int, level: int) -> LineLook:
+    """Returns what a line, counted from 0, is at a level."""
+    written, found = read(made.text), _line(made, number, level)
+    line = written.lines[number]
+    return LineLook(line.name, written.place(line.at)[0], found.channels == 4, found.side * found.side, found.cost)
 
 
 def line_planes(made: Expression, number: int, level: int, rect: Rect) -> np.ndarray:
