@@ -16,6 +16,8 @@ from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.workshop.text_field import TextField
 
+_LETTERS = 18  # of a text's name: the button is as wide whatever it is called
+
 
 def draw_texts(desk: Desk, field: TextField) -> None:
     """Draws it into the title line."""
@@ -23,9 +25,9 @@ def draw_texts(desk: Desk, field: TextField) -> None:
     if state.files is None:
         state.files = ()
         desk.work(ListTexts())
-    if w.text_button(
-        f"{icons.EXAMPLES} {state.name or 'Examples'}###texts", "Examples that teach, in order; and yours"
-    ):
+    label = f"{icons.EXAMPLES} {state.name[:_LETTERS] or 'Examples'}###texts"
+    hint = "Examples that teach, in order; and yours"
+    if w.text_button(label, hint, width=0.62 * _LETTERS * imgui.get_font_size()):
         imgui.open_popup("texts")
     w.named("Examples")
     _menu(desk)
