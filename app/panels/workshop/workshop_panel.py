@@ -118,6 +118,7 @@ class WorkshopPanel(Panel):
             self._field.go_to(mistake.line, mistake.column)
 
     def _uses(self, desk: Desk) -> None:
+        """Draws what the texture can become: ink, in the first row, is what most want."""
         gap, room, state = 2 * desk.scale, imgui.get_content_region_avail().x, desk.workshop
         for i, (how, icon, text, hint) in enumerate(_USES):
             if i > 1:

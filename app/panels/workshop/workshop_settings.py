@@ -82,13 +82,15 @@ def _facts(desk: Desk) -> None:
     imgui.same_line(wide - said.calc_text_size(text).x)
     said.text_disabled(text)
     samples = "1 sample" if line.samples == 1 else f"{line.samples} samples"
-    said.text_disabled(f"{line.cost:,.0f} ns a pixel, {samples}")
+    imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
+    said.text_wrapped(f"{line.cost:,.0f} ns a pixel, {samples}")
+    imgui.pop_style_color()
     w.tooltip("What it costs, with all that it refers to; what has no exact mean is looked at in 4 or 16 points")
     if scene.shimmer >= 0.0:
         quiet = scene.shimmer <= 3.0
         text = f"Shimmer {scene.shimmer:.2f} of 255"
         imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet if quiet else theme.look.warn))
-        said.text_unformatted(text)
+        said.text_wrapped(text)
         imgui.pop_style_color()
         w.tooltip("How far it is from its next finer level, reduced: above 3 it shimmers as one zooms")
 
