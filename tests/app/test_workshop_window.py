@@ -1,0 +1,42 @@
+"""The workshop in the real window: a texture is written, a mistake told where it is, and the brush paints with it."""
+
+import numpy as np
+import pytest
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+
+LINE = [(320 + 20 * i, 120 + (20 if i % 6 < 3 else -20)) for i in range(30)]
+
+
+def coloured(pixels):
+    """Tells whether a good part is red, and a good part blue."""
+    red, blue = pixels[..., 0].astype(int), pixels[..., 2].astype(int)
+    return min((red - blue > 60).mean(), (blue - red > 60).mean()) > 0.02
+
+
+def test_a_texture_is_written_and_painted_with(program):
+    app = program()
+    app.keys("shift+e")
+    seen = app.part("looked at")
+    app.until(lambda screen: screen[seen].std() > 5)
+    _, top, right, bottom = app.box("line 1")
+    app.click((right + 60, (top + bottom) // 2))
+    app.keys("ctrl+a")
+    app.type("ramp(noise(x*3, y*3), #ff1000, #0010ff) +")
+    app.box("mistake")
+    kept = app.screen()[seen]
+    assert kept.std() > 5, "the last good picture stays"
+    app.keys("BackSpace", "BackSpace")
+    app.until_gone("mistake")
+    app.until(lambda screen: coloured(screen[seen]))
+
+    app.click("Use as ink")
+    before = app.canvas()[:280]  # above the workshop
+    app.stroke(*LINE)
+
+    def painted(screen):
+        now = screen[60:340, 270:970].astype(int)
+        changed = np.abs(now - before).max(axis=-1) > 30
+        return changed.sum() > 1000 and coloured(now[changed][None])
+
+    app.until(painted)
