@@ -42,7 +42,7 @@ def standpoints(draw, levels=LEVELS, fractions=FRACTIONS):
 
 
 @given(standpoints(), st.tuples(st.integers(1, 5000), st.integers(1, 5000)))
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=60)
 def test_from_a_view_to_its_bookmark_and_back_is_the_identity(here, size):
     mark = here.bookmark("a", size)
     mark = c.parse(loads(dumps(c.to_json(mark))))  # as a file has it
@@ -54,7 +54,7 @@ def test_from_a_view_to_its_bookmark_and_back_is_the_identity(here, size):
 
 
 @given(standpoints(), st.sampled_from([(1280, 800), (747.3, 431.2)]))
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=40)
 def test_what_is_in_the_middle_stays_there(here, size):
     view = here.seen_from(View(Place(0, 0, 0), 0, 0.0, 1280, 800), 500.5, 300.25)
     assert (view.level, view.fraction, view.angle, view.mirrored) == (
@@ -78,7 +78,7 @@ def test_a_bookmark_shows_its_rectangle_on_any_screen():
 
 
 @given(standpoints(st.integers(-60, 900)), standpoints(st.integers(-60, 900)))
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=40)
 def test_a_flight_begins_and_ends_where_it_should_without_a_leap(here, there):
     travel = Travel(here, there, 400.0)
     assert travel.at(0.0) == here
@@ -214,7 +214,7 @@ def test_another_painting_begins_a_trail_anew(desk):
 
 
 @given(standpoints(), LEVELS)
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=40)
 def test_a_place_that_is_copied_and_typed_is_the_same_pixel(here, elsewhere):
     text = place_text(here, here.level)
     other = Standpoint(Place(5, 7, 0), elsewhere, 0.25, 1.0)

@@ -16,7 +16,7 @@ def checked(folder, header, commands):
     wild.Wild(folder, header, commands).check()
 
 
-@settings(QUIET, max_examples=5)
+@settings(QUIET, max_examples=3)
 @given(wild.HEADERS, SESSIONS)
 def test_what_was_done_comes_back_as_it_was(tmp_path_factory, header, commands):
     checked(tmp_path_factory.mktemp("wild"), header, commands)
