@@ -203,7 +203,7 @@ def slider(
     named(label)
     if not typing:
         pad = imgui.get_style().frame_padding
-        text = _number(form, value)
+        text = told_number(form, value)
         at = ImVec2(end.x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
         name = ended(say(label.split("##")[0]), at.x - corner.x - 1.5 * pad.x)
         painter.add_text(ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed(theme.look.soft), name)
@@ -212,8 +212,10 @@ def slider(
     return changed, max(lo, min(hi, value)) if changed else value
 
 
-def _number(form: str, value: float) -> str:
-    return (say(form) % value).replace("%%", "%")
+def told_number(form: str, value: float) -> str:
+    """Returns a value as it is shown; a form may be a word in its place, as "auto"."""
+    told = say(form)
+    return told % value if "%" in told else told
 
 
 def _hidden_frame(on: bool, typing: bool) -> None:

@@ -4,6 +4,7 @@ import pytest
 
 from app.language import words
 from app.language.words import Words
+from app.panels.controls import widgets
 
 CATALOGUE = {
     "Open": "Öffnen",
@@ -65,3 +66,8 @@ def test_nothing_is_spoken_but_english_where_nothing_is_chosen(monkeypatch):
     assert words.read_words("") is None
     assert words.say("Open") == "Open"
     assert words.read_catalogue("tlh") == {}
+
+
+def test_a_slider_may_show_a_word_in_place_of_its_number(german):
+    assert widgets.told_number("auto", 0.0) == "auto"
+    assert widgets.told_number("%.0f%%", 40.0) == "40%"
