@@ -1,4 +1,4 @@
-"""Brushes of the written textures that come along: one for each, all over with it."""
+"""Brushes of the written textures that come along: all over with one each, or, of lines alone, thinned by it."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from engine.painting.commands import DefineTexture
 from engine.texture.expression.library.bundled_texts import written_library
 
 GROUP = "Written"
+_LINES = {"Cross-hatching", "Hatching with a pen"}  # which leave the paper free between them
 _SHAPE = {"radius": 48, "hardness": 0.95, "spacing": 0.12, "dynamics": {"radius": [[0, 0.6], [1, 1]]}}
 
 
@@ -27,8 +28,8 @@ def _definition(title: str, text: str) -> DefineTexture:
 
 
 def _brush(title: str) -> Brush:
-    ink = {"texture": title, "amount": 1}
-    return settings.from_json({**_SHAPE, "ink": [ink]})
+    part = {"texture": title, "amount": 1}
+    return settings.from_json({**_SHAPE, **({"density": part} if title in _LINES else {"ink": [part]})})
 
 
 def _tags(about: str) -> tuple[str, ...]:
