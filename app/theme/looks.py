@@ -81,7 +81,7 @@ LOOKS = {
         grid=_grey(0.19),
     ),
     "light": WindowLook(
-        "Light",
+        "Light grey",
         "Light grey, for bright rooms",
         text=_grey(0.09),
         soft=_grey(0.20),

@@ -70,11 +70,16 @@ def draw_changed(desk: Desk) -> None:
     side, gap = imgui.get_text_line_height() * 1.25, 4 * desk.scale
     right = imgui.get_style().window_padding.x + imgui.get_content_region_avail().x
     word = "changed"
+    title = imgui.get_tree_node_to_label_spacing() + said.calc_text_size("Brush settings").x
     imgui.same_line(0, 0)
-    imgui.set_cursor_pos_x(right - 2 * (side + gap) - said.calc_text_size(word).x)
-    said.text_disabled(word)
-    w.tooltip(f"It is no longer “{desk.hand.preset}” as it was chosen")
-    imgui.same_line(0, gap)
+    left = right - 2 * (side + gap) - said.calc_text_size(word).x
+    if left > imgui.get_style().window_padding.x + title:  # in some languages there is no room for the word
+        imgui.set_cursor_pos_x(left)
+        said.text_disabled(word)
+        w.tooltip(f"It is no longer “{desk.hand.preset}” as it was chosen")
+        imgui.same_line(0, gap)
+    else:
+        imgui.set_cursor_pos_x(right - 2 * side - gap)
     if w.icon_button("brush back", icons.UNDO, f"Back to “{desk.hand.preset}”", size=side):
         take_back(desk)
     imgui.same_line(0, gap)

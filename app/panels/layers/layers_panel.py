@@ -116,7 +116,9 @@ class LayersPanel:
                 imgui.pop_id()
         if not rows:
             imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
-            said.text_wrapped(" No layer yet: the first stroke makes one.")
+            imgui.indent(3 * desk.scale)
+            said.text_wrapped("No layer yet: the first stroke makes one.")
+            imgui.unindent(3 * desk.scale)
             imgui.pop_style_color()
         imgui.end_child()
         imgui.pop_style_var(2)
