@@ -69,6 +69,16 @@ def test_a_changed_brush_says_so_and_goes_back_or_is_kept(desk):
     assert sorted(on_disk()) == ["Gouache 2"]
 
 
+@pytest.mark.parametrize(
+    ("by", "told"),
+    [({"example_detail": 1}, False), ({"depth": 0.0}, False), ({"depth": 2.0}, True), ({"flow": 0.5}, True)],
+)
+def test_an_example_as_large_as_the_view_asks_is_no_change(desk, by, told):
+    take_preset(desk, Preset("Fox", Brush(mode="example", example="Fur")))
+    desk.hand.change(**by)
+    assert work.is_changed(desk) == told
+
+
 def test_a_brush_is_copied_named_put_into_a_group_of_its_own_and_found_by_tags(desk):
     work.duplicate(desk, named(desk, "Gouache"))
     copy = named(desk, "Gouache 2")

@@ -154,9 +154,13 @@ def held_preset(desk: Desk) -> Preset | None:
 
 
 def is_changed(desk: Desk) -> bool:
-    """Tells whether the brush in hand is another than was taken; its size does not count."""
-    hand = desk.hand
-    return bool(hand.preset) and hand.brush != replace(hand.original, radius=hand.brush.radius)
+    """Tells whether the brush in hand is another than was taken; its size, and its example's, which goes by the view,
+    do not count."""
+    now, was = desk.hand.brush, desk.hand.original
+    depth = now.depth if not now.depth and not was.depth else was.depth
+    was = replace(was, radius=now.radius, depth=depth)
+    was = replace(was, example_detail=now.example_detail, example_level=now.example_level)
+    return bool(desk.hand.preset) and now != was
 
 
 def take_back(desk: Desk) -> None:
