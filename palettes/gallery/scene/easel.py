@@ -22,7 +22,12 @@ _PARTS = ("density", "tip")  # of a brush, whose textures are in pixels of the s
 
 @cache
 def _preset(name: str) -> dict[str, Any]:
-    return json.loads((BRUSHES / f"{name.lower().replace(' ', '-')}.json").read_text("utf-8"))
+    """Returns a bundled brush as it was when this was painted: those that are another since lie beside this file."""
+    file = f"{name.lower().replace(' ', '-')}.json"
+    then = Path(__file__).with_name(file)
+    told: dict[str, Any] = json.loads((then if then.exists() else BRUSHES / file).read_text("utf-8"))
+    told["brush"].pop("fixed", None)  # textures lay on the canvas
+    return told
 
 
 @dataclass

@@ -17,6 +17,7 @@ from engine.painting.value import Painting
 from engine.session.replay import replay
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.filing import playing
 from engine.studio.filing.document import Document
 from engine.studio.filing.documents import opened
 from engine.studio.filing.opening_requests import CancelOpening, FileWhole, Show, StopPlaying
@@ -201,7 +202,8 @@ def test_a_recording_is_played_to_its_end_with_its_steps_and_what_failed_is_told
     assert window.scene().can_undo
 
 
-def test_a_recording_that_plays_tells_how_far_it_is_and_can_be_stopped(tmp_path):
+def test_a_recording_that_plays_tells_how_far_it_is_and_can_be_stopped(tmp_path, monkeypatch):
+    monkeypatch.setattr(playing, "PIECE", 1e-9)  # seconds: one thing at a time
     (tmp_path / "r.jsonl").write_text(HEADER + STROKE * 4)
     window = Window()
     studio = window.studio
