@@ -35,12 +35,13 @@ def _overloads(name: str) -> list[str]:
 
 def test_a_kernel_is_told_of_when_somebody_listens_and_carries_nothing_that_joins_strings():
     values, out = np.array([1.0, 2.0, 3.0], np.float32), np.zeros(4, np.float32)  # no other test compiles it for these
+    anew = njit(nogil=True)(_put.py_func)  # kept nowhere, so it is compiled
     with event.install_recorder("numba:compile") as recorded:
-        assert njit(nogil=True)(_put.py_func)(values, out) == 2.0  # kept nowhere, so it is compiled
+        assert anew(values, out) == 2.0
     assert "_put" in {told.data["dispatcher"].py_func.__name__ for _, told in recorded.buffer}
     assert _put(values, out) == 2.0
     assert out.tolist() == [0.0, 1.0, 2.0, 3.0]
-    code = _put.inspect_llvm(_put.signatures[0])
+    code = anew.inspect_llvm(anew.signatures[0])
     assert "unicode" not in code
     assert "cfunc." not in code
     with pytest.raises(ValueError, match="different size"):
