@@ -48,6 +48,7 @@ def with_stroke(program):
     empty = app.canvas()
     app.stroke(*((440 + 8 * i, 320 + 5 * i) for i in range(16)))
     app.canvas_unlike(empty)
+    app.box("Layer 1")  # the stroke is done
     return app
 
 

@@ -63,6 +63,7 @@ def test_a_film_of_the_painting(program, tmp_path):
         made.seek(made.n_frames - 1)
         assert (np.abs(np.asarray(made.convert("RGB")).astype(int) - RED).max(axis=2) < 12).mean() > 0.9
 
+    window.until_gone("Stop film")  # the window hears of it a moment later
     window.keys("ctrl+shift+e")
     window.click("How it was made")
     window.click(window.at("seconds", across=0.95))
