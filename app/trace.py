@@ -15,7 +15,7 @@ TRACED = bool(os.environ.get("INKFALL_TRACE"))
 _placed: dict[tuple[str, str], Box] = {}  # in the frame that is drawn now
 _told: dict[tuple[str, str], Box] = {}  # at the end of the frame before
 _rest = ""  # what was told of it last
-_typing = False  # likewise
+_typing: str | None = None  # likewise
 
 
 def trace(what: str) -> None:
@@ -78,12 +78,13 @@ def trace_rest(rests: bool, at: tuple[float, float]) -> None:
         sys.stderr.flush()
 
 
-def trace_typing(typing: bool) -> None:
-    """Tells whether a text field takes what is typed, when that is another than before."""
+def trace_typing(text: str | None) -> None:
+    """Tells what stands in the text field that takes what is typed, None where none does, when that is another than
+    before."""
     global _typing
-    if TRACED and typing != _typing:
-        _typing = typing
-        sys.stderr.write(f"typing {'on' if typing else 'off'}\n")
+    if TRACED and text != _typing:
+        _typing = text
+        sys.stderr.write("typing off\n" if text is None else f"typing on {json.dumps(text)}\n")
         sys.stderr.flush()
 
 

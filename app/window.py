@@ -82,6 +82,14 @@ def _resize(desk: Desk, ctx: moderngl.Context, width: int, height: int) -> None:
         ctx.viewport = (0, 0, width, height)
 
 
+def _typed() -> str | None:
+    """Returns what stands in the text field that has the keyboard, None without one."""
+    if not imgui.get_io().want_text_input:
+        return None
+    field = imgui.internal.get_input_text_state(imgui.internal.get_active_id())
+    return "" if field is None else field.get_text()
+
+
 def _look(screen: float, preferences: Preferences) -> tuple[float, float, str]:
     """Gives all beside the canvas the preferred look and sizes on a screen of so many pixels per point; pixels per
     point then, the font's size, and the look that was chosen."""
@@ -307,7 +315,7 @@ class Window:
     def wait(self, moving: bool) -> None:
         """Sleeps until the next frame; `moving`: what the last one gave."""
         trace_rest(not moving and self.engine.worker.settled, (self.desk.pointer.x, self.desk.pointer.y))
-        trace_typing(imgui.get_io().want_text_input)
+        trace_typing(_typed())
         with self._guard.spare("on an event of the window system"):  # what its callbacks raised
             blinks = imgui.get_io().want_text_input or self.desk.selecting.selected
             self.pace.wait(moving, self.desk.painting, blinks)

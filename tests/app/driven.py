@@ -157,14 +157,23 @@ class Program:
         self.do("type", "--delay", "20", text)
 
     def fill(self, text: str) -> None:
-        """Types into the field that has the focus, instead of what is in it."""
-        self.wait_until(self._typing, "no field takes what is typed")
-        self.keys("ctrl+a")
-        self.type(text)
+        """Types into the field that has the focus, instead of what is in it; again until that stands there: a key
+        may be lost on a busy machine."""
+        end = time.monotonic() + PATIENCE
+        while True:
+            self.wait_until(self._typing, "no field takes what is typed")
+            self.keys("ctrl+a")
+            self.type(text)
+            soon = time.monotonic() + 3.0
+            while time.monotonic() < soon:
+                if f"\n{self.log.read_text()}".rpartition("\ntyping ")[2].startswith(f"on {json.dumps(text)}\n"):
+                    return
+                time.sleep(0.05)
+            assert time.monotonic() < end, f"{text!r} does not stand there: {self.log.read_text()[-2000:]}"
 
     def _typing(self) -> bool:
         """Whether the log told last that a text field has the focus."""
-        return f"\n{self.log.read_text()}".rpartition("\ntyping ")[2].startswith("on\n")
+        return f"\n{self.log.read_text()}".rpartition("\ntyping ")[2].startswith("on ")
 
     def wait_until(self, so: Callable[[], bool], otherwise: str, seconds: float = PATIENCE) -> None:
         """Waits until something is so, while the program runs."""

@@ -112,9 +112,9 @@ def removed(folder):
 def whole(worker, folder):
     """Waits until all that was painted is on disk, in a folder that is there, and the one before is gone."""
     journal = worker._posts.journal
+    until(lambda: idle(worker) is not None and [worker.entry] == list(folder.glob("*")))  # it is made, not yet written
     until(lambda: idle(worker) is not None and journal.settled and not journal.entry.lost)
     until(lambda: not journal.entry._recent)  # no power cut takes any of it
-    until(lambda: [worker.entry] == list(folder.glob("*")))
 
 
 def then(worker, tmp_path):
