@@ -11,7 +11,9 @@ from engine.numeric.address import Rect, TileKey
 from engine.numeric.detail import parents, subtract_expanded
 from engine.painting.textures import Texture
 from engine.texture import table
+from engine.texture.expression import written_ink
 from engine.texture.expression.defined import anew, expression
+from engine.texture.expression.programs import draw_program
 from engine.texture.record import Instance
 
 TEXTS = {
@@ -42,6 +44,25 @@ def test_a_piece_is_the_same_whatever_else_is_asked_for(name):
         for piece in (Rect.at(left + 255, top + 3, 5, 6), Rect.at(left + 1, top, 288, 1)):
             rows, columns = piece.slices(whole)
             assert (made.appearance(level, piece) == seen[:, rows, columns]).all()
+
+
+def test_a_square_is_drawn_once_and_kept_unchanged(monkeypatch):
+    drawn = []
+
+    def counted(made, rect, *about):
+        drawn.append(rect)
+        return draw_program(made, rect, *about)
+
+    monkeypatch.setattr(written_ink, "draw_program", counted)
+    made = expression({"text": "noise(x*3, y*3) + 0.125"}, 0)
+    first = made.appearance(0, Rect.at(-30, 5, 158, 128))
+    before, count = first.copy(), len(drawn)
+    first[:] = 7.0  # whoever got it may write to it
+    again = made.appearance(0, Rect.at(-30, 5, 158, 128))
+    assert (again == before).all()
+    assert len(drawn) == count + 2 == 6  # of four pieces those five rows high are drawn again
+    assert (made.appearance(0, Rect.at(20, 30, 2, 1)) == before[:, 25:26, 50:52]).all()
+    assert len(drawn) == 7
 
 
 @pytest.mark.parametrize("name", ["fbm", "bricks", "clear"])
