@@ -13,7 +13,6 @@ from engine.texture.record import Instance
 from engine.texture.sparse_planes import MANY, SparsePlanes
 
 Extent = tuple[int, int, int, int, int]
-_EDGES = np.s_[0, :], np.s_[-1, :], np.s_[:, 0], np.s_[:, -1]
 
 
 def blank_found(data: np.ndarray) -> Found:
@@ -62,9 +61,10 @@ def filled_planes(inks: tuple[Instance, ...], used: np.ndarray) -> tuple[np.ndar
     return plane_map(inks, kept), kept
 
 
-def trimmed(rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], depth: int) -> Record | None:
-    """As `compact`, of int16, which is the record's own where nothing is to be left out."""
-    if not inks and all(data[:, *edge].any() for edge in _EDGES):  # what fills its rectangle is not gone through
+def trimmed(rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], depth: int, full: bool) -> Record | None:
+    """As `compact`, of int16, which is the record's own where nothing is to be left out.  `full`: whether something lies
+    at each edge."""
+    if full and not inks:  # what fills its rectangle is not gone through
         data.flags.writeable = False
         return Record(rect, data, inks, depth)
     used = np.empty(len(data), np.int32)

@@ -118,6 +118,7 @@ class _Renewed:
     above: Around
     depth: int  # of the new record
     unit: np.float32  # the step of the values' grid
+    spans: np.ndarray | None = None  # of the rows of `part`, uint8 (h, 2), where they are told already
 
     def within(self, at: Rect) -> Rect:
         """Returns a rectangle of the level from the tile's corner."""
@@ -139,7 +140,8 @@ def _record(pyramid: Pyramid, it: _Renewed) -> Record | _Told | None:
     sheets = old.sheets
     record = _dense_record(it, old) if sheets is None else _sparse_record(it, sheets)
     if old is before and isinstance(record, Record):
-        record.came_from(Since.it(before, it.within(it.part), it.touched.spans(it.key, it.part)))
+        spans = it.touched.spans(it.key, it.part) if it.spans is None else it.spans
+        record.came_from(Since.it(before, it.within(it.part), spans))
     return record
 
 
@@ -184,21 +186,23 @@ def _unpacked(old: Record | None, at: Rect, inks: tuple[Instance, ...], kind: ty
 
 def _renewed(it: _Renewed, old: Record | None, inks: tuple[Instance, ...]) -> Record | _Told | None:
     """As `_record` where no ink adds texture and int16 holds what there was; LARGE if it does not hold what is."""
-    at = it.part if old is None else it.part.union(placed(it.key, old.rect))
-    data = _unpacked(old, it.within(at), inks, np.int16)
+    (x0, y0, x1, y1), rect, corner = it.part, it.touched.rect, it.above.rect
+    at = it.within(it.part)
+    at = at if old is None else at.union(old.rect)
+    data = _unpacked(old, at, inks, np.int16)
     read, coarse = _read(it.new, it.part, inks), it.above.with_inks(())
     assert read.planes is not None
-    rect, row = it.touched.rect, np.empty(TILE, np.int32)
-    start, (top, left) = _corner(rect, read.rect), _corner(rect.zoomed(-1), it.above.rect)
-    tile, begin = it.key.x - rect.x0 // TILE, it.part.y0 - rect.y0
-    window = (begin, it.part.height, tile, *_corner(rect, at))
-    changed, bits = counting.renew(
-        read.planes.data, start, coarse.data, (top - 1, left - 1), plane_map(coarse.inks, inks), it.touched.marks,
-        window, row, data, it.unit,
+    row, it.spans = np.empty(TILE, np.int32), np.empty((y1 - y0, 2), np.uint8)
+    start = rect.y0 - read.rect.y0, rect.x0 - read.rect.x0
+    down, right = rect.y0 - it.key.y * TILE - at.y0, rect.x0 - it.key.x * TILE - at.x0
+    window = y0 - rect.y0, y1 - y0, it.key.x - rect.x0 // TILE, down, right, x0 - rect.x0
+    changed, bits, full = counting.renew(
+        read.planes.data, start, coarse.data, ((rect.y0 >> 1) - corner.y0 - 1, (rect.x0 >> 1) - corner.x0 - 1),
+        plane_map(coarse.inks, inks), it.touched.marks, window, row, data, it.spans, it.unit,
     )  # fmt: skip
     if bits >= 1 << 15:
         return _Told.LARGE
-    return trimmed(it.within(at), data, inks, it.depth) if changed else _SAME
+    return trimmed(at, data, inks, it.depth, full) if changed else _SAME
 
 
 def _read(new: Around, part: Rect, inks: tuple[Instance, ...]) -> Around:

@@ -124,21 +124,25 @@ def crop(data: Array, spans: Array, planes: Array, corner: Corner, out: Array) -
 @uncounted
 def renew(
     value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, window: Window, row: Array,
-    out: Array, step: np.float32,
-) -> tuple[bool, int]:  # fmt: skip
+    out: Array, told: Array, step: np.float32,
+) -> tuple[bool, int, bool]:  # fmt: skip
     """As `first_residual` of a tile that has a residual: `out` int16 (C, h, w), which is it, is written where it is
-    touched.  Returns whether that changed it, and the bits of the absolute values that belong there: not below 2^15
-    where `out` cannot hold them.
+    touched.  Returns whether that changed it; the bits of the absolute values that belong there, not below 2^15 where
+    `out` cannot hold them; and whether something lies at each edge of `out`.
 
     `marks`: `touched` uint8 (H, W), and its spans (H, T, 2); `window`: the rows of these, an even one and how many, and
-    which of the spans; and where the first pixel of touched[0] lies in `out`, row and column, outside of it perhaps.
+    which of the spans; where the first pixel of touched[0] lies in `out`, row and column, outside of it perhaps; and
+    the column of `touched` from which on `told`, uint8 (h, 2), becomes the spans of these rows.
     The value of that pixel would lie at `start`, and what it is expanded from after `corner`.  `row`, int32 (2w,), is
     written over.
     """
     (line, column), (top, left) = start, corner
     touched, spans = marks
-    begin, height, tile, down, right = window
+    begin, height, tile, down, right, edge = window
     bits, changed = np.int32(0), np.int32(0)
+    for y in range(begin, begin + height):
+        first, last = spans[y, tile, 0], spans[y, tile, 1]
+        told[y - begin, 0], told[y - begin, 1] = max(first - edge, 0), max(last - edge, 0)
     for c in range(out.shape[0]):
         for y in range(begin, begin + height):
             first, last = spans[y, tile, 0], spans[y, tile, 1]
@@ -153,7 +157,30 @@ def renew(
                 changed |= new ^ old
                 bits |= abs(new)
                 o[i] = np.int16(new)
-    return changed != 0, bits  # type: ignore[return-value]
+    return changed != 0, bits, _fills(out)  # type: ignore[return-value]
+
+
+@inner_uncounted
+def _fills(data: Array) -> bool:
+    """Tells whether something lies in the first and in the last row, and in the first and in the last column."""
+    _, height, width = data.shape
+    return (
+        _any_in(data, 0, 1, 0, width)
+        and _any_in(data, height - 1, height, 0, width)
+        and _any_in(data, 0, height, 0, 1)
+        and _any_in(data, 0, height, width - 1, width)
+    )
+
+
+@inner_uncounted
+def _any_in(data: Array, y0: int, y1: int, x0: int, x1: int) -> bool:
+    """Tells whether anything lies in a rectangle of any plane."""
+    for c in range(data.shape[0]):
+        for y in range(y0, y1):
+            for x in range(x0, x1):
+                if data[c, y, x]:
+                    return True
+    return False
 
 
 @or_plain(plainly.extent)

@@ -10,6 +10,7 @@ from engine.numeric.kernel import Array
 from engine.numeric.pyramid import expanded_rows
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
+_EDGES = np.s_[0, :], np.s_[-1, :], np.s_[:, 0], np.s_[:, -1]
 
 
 def residual(
@@ -58,14 +59,15 @@ def crop(data: Array, spans: Array, planes: Array, corner: Corner, out: Array) -
 
 def renew(
     value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, window: Window, row: Array,
-    out: Array, step: np.float32,
-) -> tuple[bool, int]:  # fmt: skip
+    out: Array, told: Array, step: np.float32,
+) -> tuple[bool, int, bool]:  # fmt: skip
     """Does what the kernel of that name in `counting` does."""
-    (line, column), (top, left), (begin, height, tile, down, right) = start, corner, window
+    (line, column), (top, left), (begin, height, tile, down, right, edge) = start, corner, window
     spans = marks[1][begin : begin + height, tile]
+    told[...] = np.maximum(spans - np.int32(edge), 0)
     filled = spans[spans[:, 0] < spans[:, 1]]
     if not len(filled):
-        return False, 0
+        return False, 0, _fills(out)
     first, last = int(filled[:, 0].min()), int(filled[:, 1].max())
     rows, columns = slice(begin, begin + height), slice(first, last)
     touched = marks[0][rows, columns] != 0
@@ -79,7 +81,11 @@ def renew(
         changed |= bool((new != part[c]).any())
         bits |= int(np.bitwise_or.reduce(np.abs(new[touched]), axis=None, initial=0))
         part[c] = new.astype(np.int16)
-    return changed, bits
+    return changed, bits, _fills(out)
+
+
+def _fills(data: np.ndarray) -> bool:
+    return all(bool(data[:, *edge].any()) for edge in _EDGES)
 
 
 def edges(data: np.ndarray, used: np.ndarray) -> Span:

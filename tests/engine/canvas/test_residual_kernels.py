@@ -134,18 +134,23 @@ def test_a_renewed_residual_is_what_is_left_of_the_values(kernel, largest):
     touched, planes = scattered(rng, 10, 26), np.array([0, 1, 2, 3, -1, 5, 4])
     before = rng.integers(-32767, 32768, (7, 12, 28)).astype(np.int16)
     data, row = before.copy(), np.empty(26, np.int32)
-    marks, part = in_larger(touched), (2, 10, 1, -1, -2)
-    changed, bits = kernel(value, (0, -1), coarse, (1, 1), planes, marks, part, row, data, FINE_STEP)
+    marks, part, told = in_larger(touched), (2, 10, 1, -1, -2, 4), np.empty((10, 2), np.uint8)
+    arguments = value, (0, -1), coarse, (1, 1), planes, marks, part, row, data, told, FINE_STEP
+    changed, bits, full = kernel(*arguments)
 
     window = np.stack([coarse[p] if p >= 0 else np.zeros_like(coarse[0]) for p in planes])[:, 2:9, 3:18]
     new = np.rint((value[:, 2:12, 3:29] - expand(window)) * 65536).astype(np.int32)
     wanted = before.astype(np.int32)
     wanted[:, 1:11, 2:28] = np.where(touched, new, wanted[:, 1:11, 2:28])
     assert changed
+    assert full
+    assert np.array_equal(told, even_spans(touched))
     assert (bits < 1 << 15) == (abs(wanted).max() < 1 << 15) == (largest < 1.0)
     if largest < 1.0:
         assert np.array_equal(data, wanted)
-        assert not kernel(value, (0, -1), coarse, (1, 1), planes, marks, part, row, data, FINE_STEP)[0]
+        assert not kernel(*arguments)[0]
+        data[:, 0] = 0
+        assert not kernel(*arguments)[2]
 
 
 @pytest.mark.parametrize("kernel", both(counting.edges))
@@ -156,20 +161,18 @@ def test_the_edges_of_small_integers_are_those_of_large_ones(kernel):
     data[1, 3, 4], data[5, 6, 2] = -32767, 1
     assert kernel(data, used)[1:] == counting.extent(data.astype(np.int32), wanted)[1:] == (3, 7, 2, 5)
     assert (used != 0).tolist() == (wanted != 0).tolist()
-    record = trimmed(Rect(8, 16, 19, 25), data, (), 3)
+    record = trimmed(Rect(8, 16, 19, 25), data, (), 3, False)
     assert record.rect == Rect(10, 19, 13, 23)
     assert np.array_equal(record.data, data[:, 3:7, 2:5])
 
 
-@pytest.mark.parametrize("place", [(0, 3, 2), (3, 8, 10)])
-def test_what_fills_its_rectangle_is_the_record(place):
+def test_what_fills_its_rectangle_is_the_record():
     data = np.zeros((4, 9, 11), np.int16)
     data[0, 0, 5] = data[1, 8, 5] = data[2, 4, 0] = data[3, 4, 10] = 7
-    again = data.copy()
-    assert trimmed(Rect(8, 16, 19, 25), data, (), 3).data is data
-    again[data != 0] = 0
-    again[place], again[0, 4, 5] = 1, 1
-    assert trimmed(Rect(8, 16, 19, 25), again, (), 3).data.size < data.size
+    assert trimmed(Rect(8, 16, 19, 25), data, (), 3, True).data is data
+    data = data.copy()
+    data[0, 0] = 0
+    assert trimmed(Rect(8, 16, 19, 25), data, (), 3, False).data.shape == (4, 5, 11)
 
 
 @pytest.mark.parametrize("kernel", both(counting.crop))
