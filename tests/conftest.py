@@ -8,6 +8,7 @@ import os
 import shutil
 import signal
 import tempfile
+from collections import Counter
 
 import pytest
 from hypothesis import settings
@@ -25,13 +26,20 @@ settings.register_profile("same", derandomize=True)
 settings.load_profile("same")
 
 
+FEW = 12  # slow proofs of a file
+
+
 def pytest_collection_modifyitems(items):
     """Slow proofs have an hour each: they take minutes, more where the machine does something else, too.  Tests with a
-    window, the longest, come first, so that none is left at the end for one process while others have nothing to do."""
+    window, the longest, come first, so that none is left at the end for one process while others have nothing to do;
+    of slow proofs those of which a file has few, so that each kind has its turn where not all have."""
     for item in items:
         if item.get_closest_marker("nightly") and not item.get_closest_marker("timeout"):
             item.add_marker(pytest.mark.timeout(3600))
-    items.sort(key=lambda item: item.get_closest_marker("window") is None)
+    slow = [item for item in items if item.get_closest_marker("nightly")]
+    counts = Counter(item.path for item in slow)
+    later = {item for item in slow if counts[item.path] > FEW}
+    items.sort(key=lambda item: (item in later, item.get_closest_marker("window") is None))
 
 
 def pytest_collection_finish():

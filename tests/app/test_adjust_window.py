@@ -43,6 +43,7 @@ def middle(screen):
     return found.mean(axis=0) if len(found) else None
 
 
+@pytest.mark.nightly
 def test_formulas_and_curves_are_seen_and_the_view_moves_below_the_dialog(with_stroke):
     app = with_stroke
     app.keys("ctrl+m")

@@ -65,6 +65,7 @@ def blueness(picture):
     return int((picture[..., 2].astype(int) - picture[..., 0]).max())
 
 
+@pytest.mark.nightly
 def test_pictures_of_brushes_with_examples_come_when_they_are_in_sight(program):
     app = program()
     app.click("all brushes")

@@ -22,6 +22,7 @@ def margins(button):
     return [(int(line[0]), button.shape[1] - 1 - int(line[-1])) for line in found]
 
 
+@pytest.mark.nightly
 def test_sizes_of_a_new_painting_stand_in_the_middle_of_their_buttons(program):
     app = program()
     app.do("mousemove", 640, 300)

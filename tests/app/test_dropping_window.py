@@ -65,6 +65,7 @@ def test_a_picture_dropped_while_the_palette_is_open_is_an_example(program, ston
     until(lambda: shows(app.screen()[region], stone))
 
 
+@pytest.mark.nightly
 def test_a_picture_dropped_on_the_canvas_is_opened_if_it_is_to_be(program, stone):
     app = program()
     app.settled()
@@ -89,6 +90,7 @@ def test_a_picture_dropped_on_the_canvas_is_laid_there_as_a_layer_that_can_be_mo
     until(lambda: not shows(app.screen()[433:487, 559:641], stone))
 
 
+@pytest.mark.nightly
 def test_a_picture_can_be_brought_in_as_a_reference_that_no_export_shows(program, stone):
     app = program()
     app.settled()
@@ -153,6 +155,7 @@ def reading(path):
     return time.process_time() - start
 
 
+@pytest.mark.nightly
 def test_a_photograph_that_is_dropped_anywhere_loses_no_frame(program, photograph):
     """Reading it takes as long as many frames; none is longer than those before, but for noise, which is not there each
     time."""

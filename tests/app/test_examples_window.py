@@ -149,6 +149,7 @@ def test_a_stroke_grows_and_can_be_taken_back_and_swapped(program, folder):
     until(lambda: np.array_equal(shown(app), first))
 
 
+@pytest.mark.nightly
 def test_saved_and_killed_while_it_grows(program, tmp_path, folder):
     path = tmp_path / "grown.ora"
     app = with_palette(program)

@@ -86,6 +86,7 @@ def turn(app):
     app.box("Pixels of level 0")
 
 
+@pytest.mark.nightly
 def test_what_is_turned_by_parts_is_laid_into_its_layer_which_is_painted_on(app, tmp_path):
     painted = app.canvas()
     select(app)
@@ -103,6 +104,7 @@ def test_what_is_turned_by_parts_is_laid_into_its_layer_which_is_painted_on(app,
     assert app.comes_to(painted)
 
 
+@pytest.mark.nightly
 def test_what_is_turned_by_parts_is_set_down_above_and_can_be_baked(app, tmp_path):
     painted = app.canvas()
     select(app)

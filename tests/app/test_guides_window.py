@@ -6,6 +6,7 @@ import pytest
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 
 
+@pytest.mark.nightly
 def test_a_grid_is_taken_back_and_a_stroke_along_a_ruler_is_straight(program):
     app = program()
     app.settled(60.0)

@@ -54,6 +54,7 @@ def test_a_corner_scales_by_powers_of_two_exactly_and_escape_gives_it_up(app, tm
     assert app.comes_to(painted)
 
 
+@pytest.mark.nightly
 def test_the_handle_above_turns_as_one_step_and_back_to_nothing_lost(app, tmp_path):
     painted = app.canvas()
     app.keys("v")
@@ -124,6 +125,7 @@ def test_a_stroke_on_what_is_shown_again_paints_its_source_too(app):
     assert app.comes_to(apart)
 
 
+@pytest.mark.nightly
 def test_painting_on_what_is_turned_offers_what_can_be_done(app):
     app.keys("v")
     handles(app)
@@ -167,6 +169,7 @@ def test_numbers_are_typed_and_what_is_turned_back_or_mirrored_twice_is_as_it_wa
     assert app.comes_to(painted)
 
 
+@pytest.mark.nightly
 def test_what_making_it_independent_loses_is_told_before(program, tmp_path):
     broad = {"do": "stroke", "points": [[20, 20], [800, 300], [100, 700]], "brush": {"radius": 60}}
     fine = {"do": "stroke", "level": 19, "origin": [400 << 19, 300 << 19], "points": [[5, 5], [90, 70]], "brush": {}}

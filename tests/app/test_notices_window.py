@@ -30,6 +30,7 @@ def opens(app, path):
     app.until_gone("name")
 
 
+@pytest.mark.nightly
 def test_what_goes_wrong_stays_until_it_is_dealt_with(program, tmp_path):
     stick = tmp_path / "usb"
     app = program()

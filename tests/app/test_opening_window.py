@@ -39,6 +39,7 @@ def unlike(app, picture):
     return looks[-1]
 
 
+@pytest.mark.nightly
 def test_painting_goes_on_while_a_file_is_opened(program, tmp_path):
     os.mkfifo(tmp_path / "pipe.png")
     app = program("pipe.png")

@@ -100,6 +100,7 @@ class Hand:
         return np.abs(self.look() - before).max(axis=2) > 30
 
 
+@pytest.mark.nightly
 def test_with_the_pen_one_selects_masks_fills_draws_shapes_by_rulers_and_around_a_tile(program, pen, tmp_path):
     display, held = pen
     (tmp_path / "tile.jsonl").write_text("\n".join(map(json.dumps, LINES)) + "\n")

@@ -38,6 +38,7 @@ def shows(program, *names):
         time.sleep(0.1)
 
 
+@pytest.mark.nightly
 def test_going_from_place_to_place(program, painting):
     window = program(str(painting))
     window.keys("j")

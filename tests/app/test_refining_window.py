@@ -52,6 +52,7 @@ def test_a_layer_is_extrapolated_where_one_looks_closer(program, stones):
     assert found[1] > 1.2 * found[0]
 
 
+@pytest.mark.nightly
 def test_a_picture_as_ink_has_a_slider_for_its_detail(program, stones):
     app = program()
     app.settled()

@@ -29,6 +29,7 @@ def damaged(path):
     return whole
 
 
+@pytest.mark.nightly
 def test_damaged_files_are_told_kept_and_opened_as_far_as_they_are_whole(program, tmp_path):
     brushes, examples = tmp_path / "config" / "inkfall" / "brushes", tmp_path / "data" / "inkfall" / "examples"
     path = tmp_path / "lake.ora"

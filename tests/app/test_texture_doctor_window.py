@@ -57,6 +57,7 @@ def test_a_dropped_picture_gets_advice_and_is_painted_with(program, pebbles):
     app.until(lambda screen: changed(screen[stroke], empty[stroke]) > 1500 and brown(screen[stroke]))
 
 
+@pytest.mark.nightly
 def test_what_is_told_of_the_example_moves_none_of_the_pictures(program, tmp_path):
     y, x = np.mgrid[:128, :160]
     discs = (y % 20 - 10.0) ** 2 + (x % 20 - 10.0) ** 2 < 50

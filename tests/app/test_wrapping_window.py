@@ -15,6 +15,7 @@ LINES = (
 )
 
 
+@pytest.mark.nightly
 def test_a_stroke_over_the_rim_is_seen_in_every_tile_while_it_is_painted(program, tmp_path):
     (tmp_path / "tile.jsonl").write_text("\n".join(map(json.dumps, LINES)) + "\n")
     app = program(str(tmp_path / "tile.jsonl"))

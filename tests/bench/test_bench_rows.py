@@ -41,17 +41,18 @@ def checked(row):
     assert row["within"] == (row["ratio"] >= row["limit"] if row["more_is_better"] else row["ratio"] <= row["limit"])
 
 
-def test_quick_benchmarks_run_and_tell_their_rows(capsys, tmp_path):
+@pytest.mark.parametrize("names", [("view", "dab", "stroke"), pytest.param(QUICK, marks=pytest.mark.nightly)])
+def test_quick_benchmarks_run_and_tell_their_rows(capsys, tmp_path, names):
     assert engine.__file__  # its import says where kernels are kept
     file, environment = tmp_path / "ratios.json", dict(os.environ)
-    assert main(["bench", *QUICK, "--small", "--json", "--store", str(file)]) == 0
+    assert main(["bench", *names, "--small", "--json", "--store", str(file)]) == 0
     assert os.environ == environment  # what is started after it is started as before
     told = json.loads(capsys.readouterr().out)
-    assert {row["bench"] for row in told["figures"]} == set(QUICK)
+    assert {row["bench"] for row in told["figures"]} == set(names)
     for row in told["figures"]:
         checked(row)
     kept = json.loads(file.read_text())["benches"]
-    assert list(kept) == [name for name in BENCHES if name in QUICK]
+    assert list(kept) == [name for name in BENCHES if name in names]
 
     # Another run replaces only the rows of what it measured.
     assert main(["bench", "view", "--small", "--store", str(file)]) == 0
