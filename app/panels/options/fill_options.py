@@ -113,7 +113,7 @@ def likeness(desk: Desk) -> None:
     state.tolerance = round(slid("Tolerance", state.tolerance * 100, 100.0, "%.0f%%", hint) / 100, 4)
     spaced()
     hint = "Gaps in lines up to this width count as closed"
-    state.gap = round(slid("Close gaps", state.gap, WIDEST_SHOWN, "%.0f px", hint))
+    state.gap = round(slid("Gaps", state.gap, WIDEST_SHOWN, "%.0f px", hint))
     spaced()
     state.seen = w.tick("All layers", state.seen, "Look at all that is seen, not at the layer alone")[1]
 
