@@ -38,7 +38,10 @@ def test_what_lies_on_the_ground_of_a_dropped_photograph_is_cut_out(program):
     until(lambda: (app.screen()[app.part("region")].astype(int) != shown).any(axis=2).mean() > 0.005)
     app.do("mousemove", *ends[0])
     app.keys("ctrl+z")
+    app.click("Take 3")  # asks: so many come into the palette only when that is wanted
+    app.click("Not so many")
     app.click("Take 3")
+    app.click("Add 3")
     made = app.folder / "data" / "inkfall" / "examples"
     until(lambda: len(list(made.glob("*.toml"))) == 3)
     app.until_gone("By hand")

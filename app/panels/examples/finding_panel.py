@@ -20,6 +20,7 @@ from app.panels.examples.region_picture import draw_picture
 
 _SIDE = 232.0  # width of the tools, points
 _GROWN = 1.15  # of the brush, by a key
+_FEW = 2  # things that are taken without being asked about
 _WAYS = (
     ("keep", "Keep", "A stroke over what belongs to it"),
     ("drop", "Drop", "A stroke over what is ground"),
@@ -28,6 +29,9 @@ _WAYS = (
 
 class FindingPanel:
     """Draws the strip's inside."""
+
+    def __init__(self) -> None:
+        self._asked = 0  # of how many things it asks whether each is to become an example
 
     def draw(self, desk: Desk, finding: FindingState) -> None:
         """Draws it into the present window."""
@@ -79,16 +83,39 @@ class FindingPanel:
         """Takes what is found, or leaves it."""
         wide = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
         found = finding.found
-        several = found is not None and found.things > 1
-        text = f"Take {found.things}" if several and found is not None else "Take"
-        hint = "Each becomes an example of its own" if several else "Cut it out: it is the example from now on"
-        imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft))
-        if w.text_button(f"{text}###take", hint, enabled=found is not None, width=wide):
-            cutting_work.take_cut(desk)
-        imgui.pop_style_color()
+        things = found.things if found is not None else 0
+        if things > _FEW and things == self._asked:
+            self._sure(desk, things, wide)
+            return
+        self._asked = 0
+        text = f"Take {things}" if things > 1 else "Take"
+        hint = "Each becomes an example of its own" if things > 1 else "Cut it out: it is the example from now on"
+        if _accented(f"{text}###take", hint, found is not None, wide):
+            if things > _FEW:
+                self._asked = things
+            else:
+                cutting_work.take_cut(desk)
         imgui.same_line()
         if w.text_button("By hand", "Keep the whole picture and paint its region by hand", width=wide):
             cutting_work.leave(desk)
+
+    def _sure(self, desk: Desk, things: int, wide: float) -> None:
+        """Asks whether so many are to come into the palette: the answer lies beside what was pressed, so that a
+        double click is none."""
+        if w.text_button("Not so many", "Take none yet: mark what to drop, or paint the region by hand", width=wide):
+            self._asked = 0
+        imgui.same_line()
+        if _accented(f"Add {things}###take all", "Each becomes an example of its own", True, wide):
+            self._asked = 0
+            cutting_work.take_cut(desk)
+
+
+def _accented(label: str, hint: str, enabled: bool, wide: float) -> bool:
+    """Draws the button that goes on."""
+    imgui.push_style_color(Col.button, theme.vec(theme.look.accent_soft))
+    pressed = w.text_button(label, hint, enabled=enabled, width=wide)
+    imgui.pop_style_color()
+    return pressed
 
 
 def _told(finding: FindingState) -> str:
