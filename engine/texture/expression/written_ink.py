@@ -91,7 +91,7 @@ class Expression:
         """Returns what the pixels of a rectangle show: float32, (1, h, w) of -1..1 or (4, h, w) of 0..1."""
         about = self.text, self.values, self.seed, level - self.level, self.period
         out = np.empty((self.at(level).channels, rect.height, rect.width), np.float32)
-        for piece, tile in tiled(rect):
+        for piece, tile in in_squares(rect):
             whole = piece.area * _WORTH >= tile.area
             shown = (
                 _kept_square(*about, tile.x0, tile.y0)[:, *piece.slices(tile)] if whole else _shown_on(*about, piece)
@@ -100,7 +100,7 @@ class Expression:
         return out
 
 
-def tiled(rect: Rect) -> Iterator[tuple[Rect, Rect]]:
+def in_squares(rect: Rect) -> Iterator[tuple[Rect, Rect]]:
     """Yields the pieces of a rectangle, each with the square of TILE pixels that it lies in."""
     for top in range(rect.y0 // TILE * TILE, rect.y1, TILE):
         for left in range(rect.x0 // TILE * TILE, rect.x1, TILE):
