@@ -57,6 +57,11 @@ class Painting(Covered):
         if keep is None:
             return None
         parts, inks = self.ink.loaded, self.ink.inks
+        if plain and not self.ink.swayed and self.coverage.stain is None:
+            made = Stamp(keep, self.ink.base, plain=True)
+            if alike is not None:
+                self._flat[alike] = made
+            return made
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
         if self.coverage.tints is not None and key in self.coverage.tints:
             assert isinstance(self.ink, TintedInk)

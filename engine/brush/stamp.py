@@ -8,8 +8,9 @@ from typing import Protocol
 
 import numpy as np
 
+from engine.brush import coat
 from engine.numeric.address import Rect, TileKey
-from engine.texture.planes import Planes
+from engine.texture.planes import COLOURS, Planes
 from engine.texture.record import Instance
 
 
@@ -20,15 +21,25 @@ class Stamp:
     `keep`: A, float32 (128, 128) on the grid, -1..2: the part of every plane, and of all finer detail, that stays.
     Paint has 0..1; more than 1 raises the contrast of what lies there, below 0 turns it round.  An edit whose A is not
     within 0..1 sees to it that ink stays within -2..2.
-    `add`: B, float32 (4 + 3n, 128, 128) on the grid: premultiplied R, G, B, A, then red, green and blue amplitude of
-    each of the n `inks`, which are sorted by key.
+    `paint`: B, as `add` gives it, or a colour, float32 (3,), of which it is snap((1 - A) colour), and of alpha 1 - A.
+    `inks`: the n instances of B's amplitudes, sorted by key.
     `plain`: B is 0 wherever A is 1, so that A alone tells which pixels change.
     """
 
     keep: np.ndarray
-    add: np.ndarray
+    paint: np.ndarray
     inks: tuple[Instance, ...] = ()
     plain: bool = False
+
+    @property
+    def add(self) -> np.ndarray:
+        """Gives B, float32 (4 + 3n, 128, 128) on the grid: premultiplied R, G, B, A, then red, green and blue amplitude
+        of each of the inks."""
+        if self.paint.ndim > 1:
+            return self.paint
+        out = np.empty((COLOURS, *self.keep.shape), np.float32)
+        coat.lay(self.keep, self.paint, out)
+        return out
 
 
 class Edit(Protocol):

@@ -96,8 +96,8 @@ def attenuate(data: Array, keep: Array, spares_alpha: bool, out: Array, step: np
 @or_plain(plainly.apply_stamp)
 @uncounted
 def apply_stamp(
-    old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, marks: Marks,
-    step: np.float32, noise: Array,
+    old: Array, keep: Array, add: Array, colour: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array,
+    marks: Marks, step: np.float32, noise: Array,
 ) -> Extent:  # fmt: skip
     """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`; where there is `noise`,
     float32 (n, n), v' = A v + B + noise, rounded to the grid of `step`.
@@ -106,8 +106,8 @@ def apply_stamp(
     the columns of each row in which any is marked.  Returns the extent y0, y1, x0, x1 of what is marked, y1 = 0 where
     nothing is.
 
-    `keep` is A (n, n), `add` is B (D, n, n); plane c takes `add[planes[c]]`, zero for -1.  `plain`: B is 0 wherever A
-    is 1, so that v' is v there.
+    `keep` is A (n, n), `add` is B (D, n, n); plane c takes `add[planes[c]]`, zero for -1; where there is a `colour`
+    (3,), B is as `coat.lay` makes it of that and A.  `plain`: B is 0 wherever A is 1, so that v' is v there.
     """
     changed, spans = marks
     n = keep.shape[1]
@@ -126,7 +126,10 @@ def apply_stamp(
                 after[i] = before[i]
             if first < last and not (c == 3 and spares_alpha):
                 where = planes[c], y, first
-                _stamp_row(a[first:last], before[first:last], add, where, noise, step, after[first:last])
+                if colour.size and planes[c] >= 0:
+                    _wash_row(a[first:last], before[first:last], colour, where, noise, step, after[first:last])
+                else:
+                    _stamp_row(a[first:last], before[first:last], add, where, noise, step, after[first:last])
             if c == 3 and not spares_alpha:
                 for i in range(n):
                     after[i] = min(max(after[i], _ZERO), _ONE)
@@ -138,6 +141,27 @@ def apply_stamp(
             first, last = ends(s, found)
         spans[y, 0], spans[y, 1] = first, last
     return spanned(spans, n)
+
+
+@inner_uncounted
+def _wash_row(
+    a: Array, before: Array, colour: Array, where: tuple[int, int, int], noise: Array, step: np.float32, after: Array
+) -> None:
+    """As `_stamp_row`, of one colour."""
+    plane, y, first = where
+    if noise.size:
+        d = noise[y, first : first + a.size]
+        for i in range(a.size):
+            m = _ONE - a[i]
+            b = m if plane == 3 else snap(m * colour[plane])
+            after[i] = snap_to((a[i] * before[i] + b) + d[i], step)
+    elif plane == 3:
+        for i in range(a.size):
+            after[i] = snap(a[i] * before[i]) + (_ONE - a[i])
+    else:
+        value = colour[plane]
+        for i in range(a.size):
+            after[i] = snap(a[i] * before[i]) + snap((_ONE - a[i]) * value)
 
 
 @inner_uncounted

@@ -26,6 +26,7 @@ def _zeros(planes: int) -> np.ndarray:
 
 _FIRST = 16  # tiles that are worked out together, until one knows how much ink lies there
 _PIECE = 32 << 20  # bytes of tiles that are worked out together then
+_NO_COLOUR = np.empty(0, np.float32)
 _BLANK, _TILE = Planes(_zeros(COLOURS)), Rect(0, 0, TILE, TILE)
 
 
@@ -61,8 +62,9 @@ def _painted(pyramid: Pyramid, edit: Edit, key: TileKey, old: Planes | None) -> 
     new, marks = np.empty_like(before.data), blank_marks(TILE, TILE)
     planes, spares, step = plane_map(stamp.inks, inks), edit.spares_alpha, pyramid.step
     dither = dithering(step, pyramid.commits + 1, key, _TILE, stamp.keep)
+    add, colour = (stamp.paint, _NO_COLOUR) if stamp.paint.ndim > 1 else (_zeros(COLOURS), stamp.paint)
     extent = kernels.apply_stamp(
-        before.data, stamp.keep, stamp.add, planes, stamp.plain, spares, new, marks, step, dither
+        before.data, stamp.keep, add, colour, planes, stamp.plain, spares, new, marks, step, dither
     )
     at = key.rect
     dirty = placed_extent(at, extent)

@@ -43,11 +43,14 @@ def add_residual(
 
 
 def apply_stamp(
-    old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, marks: Marks,
-    step: np.float32, noise: Array,
+    old: Array, keep: Array, add: Array, colour: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array,
+    marks: Marks, step: np.float32, noise: Array,
 ) -> Extent:  # fmt: skip
     """Does what the kernel of that name in `kernels` does."""
     changed, spans = marks
+    if colour.size:
+        m = _ONE - keep
+        add = np.stack([*((m * value + SNAP) - SNAP for value in colour), m])
     for c, source in enumerate(planes.tolist()):
         if c == 3 and spares_alpha:
             new[c] = old[c]

@@ -89,7 +89,7 @@ def _textured(repeats: int) -> Figure:
             stamp = edit.stamp(key, below)
             if stamp is not None:
                 how = planes, stamp.plain, False, new, marks, FINE_STEP, NO_DITHER
-                kernels.apply_stamp(below.data, stamp.keep, stamp.add, *how)
+                kernels.apply_stamp(below.data, stamp.keep, stamp.add, np.empty(0, np.float32), *how)
 
     own()
     moved = len(old) * 128 * 128 * (2 * 4 + 2 * 7 * 4)  # coverage and seven planes, read and written

@@ -63,7 +63,7 @@ def _dab(name: str, op: dict[str, Any], repeats: int, limit: float) -> Figure:
             if stamp is not None:
                 planes = plane_map(stamp.inks, ink.inks)
                 how = planes, stamp.plain, edit.spares_alpha, new, marks, FINE_STEP, NO_DITHER
-                kernels.apply_stamp(old.data, stamp.keep, stamp.add, *how)
+                kernels.apply_stamp(old.data, stamp.keep, stamp.add, np.empty(0, np.float32), *how)
 
     own()
     moved = len(olds) * TILE * TILE * (2 * 4 + 2 * 7 * 4)  # coverage and seven planes, read and written

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from engine.brush.stamp import Stamp
 from engine.canvas import kernels
 from engine.canvas.compact import blank_found, compact, trimmed
 from engine.canvas.dither import NO_DITHER
@@ -10,8 +11,10 @@ from engine.canvas.front import blank_marks
 from engine.canvas.rising import counting, lifting, spreading
 from engine.canvas.rising.spans import spans_of, within
 from engine.numeric.address import Rect
-from engine.numeric.grid import FINE_STEP
+from engine.numeric.grid import FINE_STEP, snapped
 from engine.numeric.pyramid import expand
+
+_NO_COLOUR = np.empty(0, np.float32)
 
 
 def on_grid(rng, *shape, largest=1.0):
@@ -81,9 +84,26 @@ def test_what_a_stamp_changes_is_measured():
     keep[2, 7] = keep[4, 3] = 0.5
     old, new, marks = np.ones((4, 6, 9), np.float32), np.empty((4, 6, 9), np.float32), blank_marks(6, 9)
     add, planes = np.zeros((4, 6, 9), np.float32), np.arange(4)
-    assert kernels.apply_stamp(old, keep, add, planes, True, False, new, marks, FINE_STEP, NO_DITHER) == (2, 5, 3, 8)
+    about = planes, True, False, new, marks, FINE_STEP, NO_DITHER
+    assert kernels.apply_stamp(old, keep, add, _NO_COLOUR, *about) == (2, 5, 3, 8)
     assert np.array_equal(marks[0] != 0, keep != 1.0)
     assert marks[1].tolist() == [[9, 0], [9, 0], [7, 8], [9, 0], [3, 4], [9, 0]]
+
+
+@pytest.mark.parametrize("rounded", [False, True])
+def test_a_stamp_of_one_colour_is_that_of_its_paint(rounded):
+    rng = np.random.default_rng(4)
+    keep = np.where(rng.random((6, 9)) < 0.5, on_grid(rng, 1, 6, 9)[0] * np.float32(0.25) + np.float32(0.5), 1)
+    old, colour = on_grid(rng, 7, 6, 9, largest=0.9), np.array([0.3, 0.61, 0.9], np.float32)
+    stamp, planes = Stamp(snapped(keep), colour), np.array([0, 1, 2, 3, -1, -1, -1])
+    noise = np.where(keep < 1, np.float32(0.00013), np.float32(0)) if rounded else NO_DITHER
+    found = []
+    for kernel in (kernels.apply_stamp.compiled, kernels.apply_stamp.plain):
+        for told in (_NO_COLOUR, colour):
+            new, marks = np.empty_like(old), blank_marks(6, 9)
+            kernel(old, stamp.keep, stamp.add, told, planes, True, False, new, marks, FINE_STEP, noise)
+            found.append(new.tobytes())
+    assert len(set(found)) == 1
 
 
 @pytest.mark.parametrize("kernel", [counting.residual.compiled, counting.residual.plain])
