@@ -14,10 +14,11 @@ from typing import Protocol
 
 import numpy as np
 
-from engine.canvas.rising import lifting
+from engine.canvas.rising import lifting, span_values
 from engine.canvas.store import Change, Pyramid
-from engine.numeric.address import Rect, TileKey
+from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, plane_map, widened
+from engine.texture.record import Instance
 
 MOST = 256  # commits that are looked through: a tile is sooner made again than after more
 _OVERHEAD = 2000  # bytes of a commit's own objects, roughly
@@ -59,8 +60,9 @@ class RisenLevel(OfLevel, Protocol):
         """Gives the new values."""
         ...
 
-    def written(self) -> Sequence[tuple[TileKey, Rect, np.ndarray]]:
-        """Returns the tiles in which they changed, the rectangle of that, and the columns of each of its rows."""
+    @property
+    def by_tiles(self) -> np.ndarray:
+        """Gives the columns of each row in which they changed, by tile: int32 (h, T, 2)."""
         ...
 
 
@@ -107,25 +109,37 @@ class Front:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class NewValues:
-    """New values of pixels: of `at`, in the columns of each row that `spans`, int32 (h, 2), tells."""
+    """New values of pixels: of `at`, in the columns of each row that `spans`, int32 (h, 2), tells, where `values` has
+    them one after another (`span_values.gather`): float32 (4 + 3n, k)."""
 
     at: Rect
-    planes: Planes
+    values: np.ndarray
+    inks: tuple[Instance, ...]
     spans: np.ndarray
 
     @classmethod
     def of(cls, risen: RisenLevel) -> list[NewValues]:
-        """Takes what changed of a level."""
-        found, planes = [], risen.planes
-        for _, at, spans in risen.written():
-            rows, columns = at.slices(risen.rect)
-            found.append(cls(at, Planes(planes.data[:, rows, columns].copy(), planes.inks), spans))
+        """Takes what changed of a level, by columns of tiles."""
+        found, planes, (left, top, right, _) = [], risen.planes, risen.rect
+        whole = planes.data.view(np.int32)  # as records are: so the kernel is compiled once
+        for t, x in enumerate(range(left // TILE * TILE, right, TILE)):
+            rows = np.flatnonzero(risen.by_tiles[:, t, 0] < risen.by_tiles[:, t, 1])
+            if not len(rows):
+                continue
+            first, last, x0 = int(rows[0]), int(rows[-1]) + 1, max(x, left)
+            spans = np.ascontiguousarray(risen.by_tiles[first:last, t])
+            values = np.empty((len(whole), _count(spans)), np.int32)
+            span_values.gather(whole, first, spans, values.reshape(-1))
+            at = Rect(x0, top + first, min(x + TILE, right), top + last)
+            spans -= np.int32(x0 - left)
+            spans[spans[:, 0] >= spans[:, 1]] = 0
+            found.append(cls(at, values.view(np.float32), planes.inks, spans))
         return found
 
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
-        return self.planes.data.nbytes + self.spans.nbytes
+        return self.values.nbytes + self.spans.nbytes
 
     def put(self, rect: Rect, out: Planes) -> None:
         """Writes the pixels into `out`, which covers `rect` and has room for their inks."""
@@ -133,12 +147,19 @@ class NewValues:
         if part.empty:
             return
         rows, columns = part.slices(self.at)
-        spans = np.minimum(np.maximum(self.spans[rows] - np.int32(columns.start), 0), part.width)
-        planes = plane_map(self.planes.inks, out.inks)
-        values = np.ascontiguousarray(
-            self.planes.data[:, rows, columns]
-        )  # whatever is cut: so the kernel is compiled once
-        lifting.place_changed(values, planes, spans, out.data, part.y0 - rect.y0, part.x0 - rect.x0)
+        told, before = self.spans[rows], _count(self.spans[: rows.start])
+        values = np.ascontiguousarray(self.values[:, before : before + _count(told)]).view(np.int32)
+        there = np.empty((len(values), part.height, self.at.width), np.int32)
+        span_values.scatter(values.reshape(-1), told, there, 0)
+        spans = np.minimum(np.maximum(told - np.int32(columns.start), 0), part.width)
+        planes = plane_map(self.inks, out.inks)
+        cut = np.ascontiguousarray(there[:, :, columns]).view(np.float32)
+        lifting.place_changed(cut, planes, spans, out.data, part.y0 - rect.y0, part.x0 - rect.x0)
+
+
+def _count(spans: np.ndarray) -> int:
+    """Counts the columns of rows."""
+    return int(np.maximum(spans[..., 1] - spans[..., 0], 0).sum())
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -173,8 +194,7 @@ class Raised:
 
     def note(self, change: Change, painted: Sequence[PaintedTile], risen: Sequence[RisenLevel]) -> None:
         """Keeps what a commit made of the tiles of its own level and of the coarser ones."""
-        size = sum(4 * len(level.planes.data) * at.area for level in risen for _, at, _ in level.written())
-        if size > self._most:
+        if sum(4 * len(level.planes.data) * _count(level.by_tiles) for level in risen) > self._most:
             return
         made = self._made[change] = _Made.of(painted, risen)
         self.held += made.nbytes
@@ -213,7 +233,7 @@ def brought_up(planes: Planes | None, rect: Rect, written: Sequence[NewValues]) 
         return planes
     if planes is None:
         planes = Planes(np.zeros((COLOURS, rect.height, rect.width), np.float32))
-    inks = merged(planes.inks, *(one.planes.inks for one in written))
+    inks = merged(planes.inks, *(one.inks for one in written))
     out = widened(planes, inks)
     if np.may_share_memory(out.data, planes.data):
         out = Planes(planes.data.copy(), inks)

@@ -47,17 +47,12 @@ class Risen:
         both = pairs.reshape(len(spans), tiles, 2, 2)
         return np.stack([both[..., 0].min(axis=2), both[..., 1].max(axis=2)], axis=-1)
 
-    def written(self) -> list[tuple[TileKey, Rect, np.ndarray]]:
-        """Returns the tiles in which anything changed, the rectangle of that, and the columns of each of its rows."""
-        found = []
-        for key, dirty in boxed(self.level, self.rect, self.by_tiles):
-            rows, columns = dirty.slices(self.rect)
-            found.append((key, dirty, self.by_tiles[rows, key.x - self.rect.x0 // TILE] - np.int32(columns.start)))
-        return found
-
     def patches(self, spares_alpha: bool) -> list[Patch]:
         """Returns what changed by tile, of a level whose old values were asked for."""
-        return [self._patch(key, dirty.evened(), dirty, spares_alpha) for key, dirty, _ in self.written()]
+        return [
+            self._patch(key, dirty.evened(), dirty, spares_alpha)
+            for key, dirty in boxed(self.level, self.rect, self.by_tiles)
+        ]
 
     def _patch(self, key: TileKey, at: Rect, dirty: Rect, spares_alpha: bool) -> Patch:
         rows, columns = at.slices(self.rect)
