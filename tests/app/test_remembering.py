@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from immutables import Map
 
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
@@ -15,9 +16,12 @@ from app.desk.remembering import kept_views, kept_window
 from app.desk.remembering.kept_views import ReadViews, ViewsWatched, show_as_before, views_of
 from app.desk.remembering.kept_window import KeepWindow, Remembering, read_window, restore_found, restore_window
 from app.desk.remembering.window_record import KeptHand, KeptWindow, window_json, window_of
+from app.desk.solids.kept_solid import KeptSolid
+from app.desk.solids.solid_state import DEEPEST_SLICE, OBJECTS, SOLID_SCALES
 from app.input.window_box import WindowBox, box_in_points, fitted_box, read_box
 from engine.brush.settings import Brush
 from engine.numeric.address import Rect
+from engine.solids.material_sliders import MATERIALS
 from engine.studio.results import Scene
 
 NAMES = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
@@ -39,7 +43,16 @@ HANDS = st.builds(
 )
 TABLES = st.dictionaries(NAMES, st.booleans(), max_size=5).map(lambda told: tuple(told.items()))
 FOLDERS = st.dictionaries(NAMES, NAMES, max_size=5).map(lambda told: tuple(told.items()))
-KEPT = st.builds(KeptWindow, st.none() | BOXES, st.booleans(), NAMES, TABLES, FOLDERS, HANDS, EXPORTS)
+SOLIDS = st.builds(
+    KeptSolid,
+    st.sampled_from(sorted(MATERIALS)),
+    st.sampled_from(OBJECTS),
+    st.integers(0, 99_999),
+    st.floats(0, 1).map(lambda x: Map({"agate": Map(warp=x, speckle=x), "wood": Map(rings=9.0)})) | st.just(Map()),
+    st.floats(*SOLID_SCALES),
+    st.floats(0, DEEPEST_SLICE),
+)
+KEPT = st.builds(KeptWindow, st.none() | BOXES, st.booleans(), NAMES, TABLES, FOLDERS, HANDS, EXPORTS, solid=SOLIDS)
 
 
 @pytest.fixture
@@ -63,6 +76,8 @@ def test_what_is_remembered_is_laid_on_the_desk_again(desk, tmp_path):
     desk.hand.take(Brush(radius=77.0), "Mine")
     desk.hand.colour, desk.export.format, desk.opened.folders = (1.0, 0.0, 0.0), "exr", {"Film": tmp_path}
     desk.remembered.folded["Layers"] = False
+    desk.solid.material, desk.solid.name = "marble", "/a/mesh/of/mine.obj"
+    desk.solid.set("warp", 0.4)
     watched = Remembering(lambda: box)
     watched.watch(desk, 1.0)
     assert not (tmp_path / "window.json").exists(), "it has been so but once"
@@ -84,6 +99,7 @@ def test_what_is_remembered_is_laid_on_the_desk_again(desk, tmp_path):
         {"Film": tmp_path},
     )
     assert other.remembered.folded == {"Layers": False}
+    assert (other.solid.made, other.solid.name) == (("marble", 1, (("warp", 0.4),)), "teapot")
 
 
 @pytest.mark.parametrize(("strip", "opened"), [("lab", "lab"), ("of a newer program", "")])
@@ -109,6 +125,8 @@ DAMAGED = (
     '{"folders": {"a": 2}}',
     '{"brush": 7}', '{"brush": {"name": "a", "radius": "wide"}}', '{"colours": ["red", "blue"]}', '{"colours": 3}',
     '{"export": {"finer": 99}}', '{"export": {"area": null}}', '{"stabiliser": 1e999}', '{"strip": {}}', "\0\0",
+    '{"solid": 1}', '{"solid": {"seed": 1.5}}', '{"solid": {"scale": 9e9}}',
+    '{"solid": {"values": {"wood": {"warp": "much"}}}}',
 )  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from app.desk.exporting.export_state import EXPORT_CHOICES, FRAME_AREA
 from app.desk.presets import Preset
 from app.desk.remembering.kept_json import read_kept_object, write_kept_object
 from app.desk.remembering.window_record import KeptHand, KeptWindow, window_json, window_of
+from app.desk.solids.kept_solid import KeptSolid
 from app.input.window_box import WindowBox, kept_window_file
 
 Where = Callable[[], WindowBox | None]  # tells where the window lies, None where that is not known
@@ -61,6 +62,7 @@ def restore_window(desk: Desk, kept: KeptWindow) -> None:
     desk.remembered.kept, desk.start.welcomed = kept, kept.welcomed
     desk.remembered.strip, desk.remembered.folded = kept.strip, dict(kept.folded)
     desk.arranged.now, desk.arranged.workspaces = kept.panels, kept.workspaces
+    kept.solid.lay(desk.solid)
     for name in EXPORT_CHOICES:
         setattr(desk.export, name, getattr(kept.export, name))
     if desk.export.area not in AREAS:
@@ -131,4 +133,5 @@ def remembered_now(desk: Desk, box: WindowBox | None) -> KeptWindow:
         export=replace(desk.export, light=None),
         panels=desk.arranged.now,
         workspaces=desk.arranged.workspaces,
+        solid=KeptSolid.of(desk.solid),
     )

@@ -14,6 +14,7 @@ from app.desk.colours import from_hex
 from app.desk.exporting.export_state import EXPORT_CHOICES, EXPORT_FORMATS, FINER, ExportState
 from app.desk.presets import Preset
 from app.desk.remembering.kept_json import KeptObject
+from app.desk.solids.kept_solid import KeptSolid, solid_json, solid_of
 from app.input.window_box import WindowBox, box_of
 from engine.brush.parts import flag
 from engine.brush.steadying import STEADIED
@@ -37,7 +38,8 @@ class KeptHand(NamedTuple):
 class KeptWindow:
     """`box`: where it lies; `welcomed`: the start page was seen; `strip`: what is open below the canvas; `folded`: by
     sections of panels that were folded or unfolded, whether they are open; `folders`: by what was chosen there;
-    `panels`: where these lie; `workspaces`: such arrangements under names."""
+    `panels`: where these lie; `workspaces`: such arrangements under names; `solid`: what solids were set
+    to."""
 
     box: WindowBox | None = None
     welcomed: bool = False
@@ -48,6 +50,7 @@ class KeptWindow:
     export: ExportState = field(default_factory=ExportState)
     panels: Arrangement = field(default_factory=Arrangement)
     workspaces: Map[str, Arrangement] = field(default_factory=Map)
+    solid: KeptSolid = field(default_factory=KeptSolid)
 
 
 def window_json(kept: KeptWindow) -> KeptObject:
@@ -60,6 +63,7 @@ def window_json(kept: KeptWindow) -> KeptObject:
     told |= {"panels": panels} if (panels := arrangement_json(kept.panels)) else {}
     if kept.workspaces:
         told["workspaces"] = {name: arrangement_json(one) for name, one in sorted(kept.workspaces.items())}
+    told |= {"solid": solid_json(kept.solid)} if kept.solid != KeptSolid() else {}
     told |= {"colours": list(hand.colours)} if hand.colours is not None else {}
     told |= {"stabiliser": hand.stabiliser} if hand.stabiliser is not None else {}
     told |= {"steadying": hand.steadying} if hand.steadying else {}
@@ -87,6 +91,7 @@ def window_of(told: KeptObject) -> KeptWindow:
         _export(_table(told, "export")),
         arrangement_of(told.get("panels", {}), "panels"),
         workspaces_of(told.get("workspaces", {})),
+        solid_of(told.get("solid", {})),
     )
 
 

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 OBJECTS = ("sphere", "cube", "torus", "vase", "teapot", "knot", "bust")
 USUAL_OBJECT, USUAL_MATERIAL = "teapot", "agate"
+SOLID_SCALES, USUAL_SCALE = (0.1, 2.0), 0.42
+DEEPEST_SLICE, USUAL_DEPTH = 1.0, 0.5  # of a slice
 FIRST_SIDE, LAST_SIDE = 48, 96  # voxels of the cube that is shown at once, and of the one that follows
 SMALLEST_ROOM = 8  # pixels of a picture that is worth drawing
 _STEEP = 2  # of a slice's normal, in whole numbers
@@ -44,8 +46,8 @@ class SolidState:
     seed: int = 1
     values: dict[str, dict[str, float]] = field(default_factory=dict)
     turn: tuple[float, float] = (-30.0, 22.0)
-    scale: float = 0.42
-    depth: float = 0.5
+    scale: float = USUAL_SCALE
+    depth: float = USUAL_DEPTH
     room: tuple[int, int] = (0, 0)
     turning: bool = False
     carved: Carved | None = None

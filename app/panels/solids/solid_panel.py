@@ -13,7 +13,7 @@ from app.desk.hand import go_on_with_brush, radius_of
 from app.desk.lab_state import with_texture
 from app.desk.outside import pictured
 from app.desk.solids.cube_work import ListCubes
-from app.desk.solids.solid_state import OBJECTS
+from app.desk.solids.solid_state import DEEPEST_SLICE, OBJECTS, SOLID_SCALES
 from app.desk.solids.solid_work import Carve, Rest, pictures_at_rest
 from app.desk.solids.touching_up import ObjectSeen
 from app.language import said
@@ -26,7 +26,6 @@ from engine.solids.material_sliders import MATERIALS
 from engine.studio.requests import Do
 
 _DEGREES = 0.45  # for each pixel of a drag
-_SCALES = 0.1, 2.0
 _UNIT = 256  # pixels of the slice that is ink
 _OWN, _LONGEST = "", 24  # what asks for a mesh; letters of its name
 _DRAWN = "drawn"
@@ -92,7 +91,7 @@ class SolidPanel(Panel):
             state.drag(_DEGREES * moved.x / desk.scale, _DEGREES * moved.y / desk.scale)
         wheel = imgui.get_io().mouse_wheel if imgui.is_item_hovered() else 0.0
         if wheel:
-            state.scale = min(max(state.scale * 1.12**wheel, _SCALES[0]), _SCALES[1])
+            state.scale = min(max(state.scale * 1.12**wheel, SOLID_SCALES[0]), SOLID_SCALES[1])
         painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size[0], corner.y + size[1])
         painter.add_rect_filled(corner, end, theme.packed(theme.look.field), imgui.get_style().frame_rounding)
         shown = desk.pictures.get("solid")
@@ -150,8 +149,8 @@ class SolidPanel(Panel):
             if changed:
                 state.set(name, float(round(value)) if slider.whole else round(value, 3))
         hint = "How much of the block the object takes: smaller shows it larger"
-        _, state.scale = w.slider("Scale", state.scale, _SCALES, hint, curved=True)
-        _, state.depth = w.slider("Slice", state.depth, (0.0, 1.0), "How deep the block is cut for ink")
+        _, state.scale = w.slider("Scale", state.scale, SOLID_SCALES, hint, curved=True)
+        _, state.depth = w.slider("Slice", state.depth, (0.0, DEEPEST_SLICE), "How deep the block is cut for ink")
 
     def _cubes(self, desk: Desk) -> None:
         """Chooses among cubes that are kept, or asks for another."""
