@@ -32,7 +32,9 @@ def sources(painting: Painting) -> dict[str, ImageSource]:
     for layer in layers.layers(painting.root):
         for plot in layer.growth:
             about = plot_files.origin(plot)
-            grown += [replace(source, name=plot.name) for source in (about.source, about.mask) if source is not None]
+            learnt = None if about.learning is None else about.learning.maps
+            held = about.source, about.mask, about.control, learnt
+            grown += [replace(source, name=plot.name) for source in held if source is not None]
         for pyramid in (layer.pyramid, *layer.heaps.values()):
             for _, record in pyramid.all_records():
                 inks.update(record.inks)

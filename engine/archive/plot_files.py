@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from immutables import Map
@@ -39,6 +40,8 @@ from engine.texture.example.region import Region
 from engine.texture.example.tiles import NONE, TILE_SIDE, Tiles, sealed
 from engine.texture.example.told import coarser as coarser_told
 from engine.texture.image import ImageSource
+from engine.texture.learnt.refinement import OCTAVES
+from engine.texture.record import LEARNT
 
 GROWN = 1 << 17  # bytes in memory of a tile that is grown, with all its levels, about
 ANALYSED = 1 << 7  # and of a pixel of an example
@@ -50,8 +53,8 @@ OTHERWISE = "some of what was painted with examples is not quite what it was whe
 
 @dataclass(frozen=True)
 class ExampleEntry:
-    """What an example is made of: `picture`, and if it has them `mask` and `control`, by their sha; `channels`:
-    those of the last."""
+    """What an example is made of: `picture`, and if it has them `mask`, `control` and `maps`, by their sha; `channels`:
+    those of `control`; `strength`, `octaves`: how it is refined by `maps`."""
 
     picture: str
     mask: str | None
@@ -59,6 +62,14 @@ class ExampleEntry:
     detail: int
     control: str | None = None
     channels: Channels = ()
+    maps: str | None = None
+    strength: float = 1.0
+    octaves: int = OCTAVES
+
+    @property
+    def pictures(self) -> tuple[str, ...]:
+        """Gives the pictures that it needs, by their sha."""
+        return tuple(sha for sha in (self.picture, self.mask, self.control, self.maps) if sha is not None)
 
 
 @dataclass(frozen=True)
@@ -93,7 +104,9 @@ def example_entry(plot: Plot) -> ExampleEntry:
     mask = None if found.mask is None else found.mask.sha
     control = None if found.control is None else found.control.sha
     about = plot.region.exemplar.parameters, found.detail
-    return ExampleEntry(found.source.sha, mask, *about, control, found.channels)
+    learning = found.learning
+    learnt = () if learning is None else (learning.maps.sha, learning.strength, learning.octaves)
+    return ExampleEntry(found.source.sha, mask, *about, control, found.channels, *learnt)
 
 
 def stored(plot: Plot, stem: str) -> tuple[PlotEntry, dict[str, Callable[[], bytes]]]:
@@ -133,7 +146,7 @@ def controlled(painting: Painting) -> bool:
     grown = (plot.region.exemplar for layer in layers.layers(painting.root) for plot in layer.growth)
     textures = painting.textures.values()
     found = any(one.maps or one.control or one.parameters.get("method") == SEAMLESS for one in textures)
-    return found or any(one.control is not None or one.parameters.method == SEAMLESS for one in grown)
+    return found or any(one.control or one.learning or one.parameters.method == SEAMLESS for one in grown)
 
 
 def plot_json(entry: PlotEntry) -> dict[str, object]:
@@ -153,7 +166,8 @@ def _example_json(entry: ExampleEntry) -> dict[str, object]:
     told = {name: getattr(own, name) for name in FIELDS}
     mask = {} if entry.mask is None else {"mask": entry.mask}
     control = {} if entry.control is None else {"control": entry.control, "controls": list(map(list, entry.channels))}
-    return {"picture": entry.picture, **mask, **control, "detail": entry.detail, "parameters": told}
+    maps = {"maps": entry.maps, "strength": entry.strength, "octaves": entry.octaves} if entry.maps else {}
+    return {"picture": entry.picture, **mask, **control, **maps, "detail": entry.detail, "parameters": told}
 
 
 # ---- reading ----
@@ -196,13 +210,17 @@ def parse_example(value: object, where: str) -> ExampleEntry:
     parameters = with_values(Parameters(), told, f"{where}.parameters.")
     detail = members.integer("detail", lo=0, hi=DETAIL_CAP)
     held = members.text("picture"), members.text("mask", None), parameters, detail
+    learnt: dict[str, Any] = {}
+    if "maps" in members:
+        strength, octaves = members.number("strength", lo=0.0, hi=1.0), members.integer("octaves", lo=1, hi=OCTAVES)
+        learnt = {"maps": members.text("maps"), "strength": strength, "octaves": octaves}
     if "control" not in members:
-        return ExampleEntry(*held)
+        return ExampleEntry(*held, **learnt)
     try:
         channels = channels_from_json(frozen(members.take("controls", expected="a list")))
     except FieldError as error:
         raise FieldError(f"{where}.controls", error.found, error.expected) from None
-    return ExampleEntry(*held, members.text("control"), channels)
+    return ExampleEntry(*held, members.text("control"), channels, **learnt)
 
 
 def _called(name: str) -> str:
@@ -243,8 +261,8 @@ def cost(examples: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], sizes
     """Returns bytes of memory that the plots of a file take when they are grown, about; `sizes`: of its pictures."""
     whole = GROWN * sum(count for plot in plots for _, count in plot.masks)
     for name, entry in examples.items():
-        for sha in (entry.picture, entry.mask, entry.control):
-            if sha is not None and sha not in sizes:
+        for sha in entry.pictures:
+            if sha not in sizes:
                 raise FieldError(f"examples.{_called(name)}", f"picture {shown(sha, 12)}", "one of those in the file")
         masked = None if entry.mask is None else sizes[entry.mask]
         _check_sizes(f"examples.{_called(name)}", sizes[entry.picture], masked)
@@ -324,11 +342,14 @@ def _texture(entry: ExampleEntry, name: str, pictures: Mapping[str, ImageSource]
     """Returns the example as a texture that was painted with under some name."""
     mask = None if entry.mask is None else replace(pictures[entry.mask], name=name)
     told = Map({field: getattr(entry.parameters, field) for field in FIELDS})
-    source = replace(pictures[entry.picture], name=name)
+    texture = Texture(KIND, told, replace(pictures[entry.picture], name=name), mask)
+    if entry.maps is not None:
+        told = told.update(detail=LEARNT, strength=entry.strength, octaves=entry.octaves)
+        texture = replace(texture, parameters=told, maps=replace(pictures[entry.maps], name=name))
     if entry.control is None:
-        return Texture(KIND, told, source, mask)
-    control = replace(pictures[entry.control], name=name)
-    return Texture(KIND, told.set("controls", tuple(map(tuple, entry.channels))), source, mask, control=control)
+        return texture
+    told = told.set("controls", tuple(map(tuple, entry.channels)))
+    return replace(texture, parameters=told, control=replace(pictures[entry.control], name=name))
 
 
 def _checked(exemplar: Exemplar, masks: Tiles, told: Tiles, where: str) -> Tiles:

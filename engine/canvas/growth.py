@@ -20,6 +20,7 @@ import numpy as np
 from engine.canvas.grown import shown as pixels
 from engine.canvas.grown.carry import carried
 from engine.canvas.grown.closer import BEYOND
+from engine.canvas.grown.learnt_below import LOOKED_ABOUT, has_alpha
 from engine.canvas.grown.shown import Shown
 from engine.numeric.address import Rect
 from engine.texture.example import region as regions
@@ -33,6 +34,7 @@ from engine.texture.example.told import translated
 _NOWHERE = Rect(0, 0, 0, 0)
 _MOST_RECTS = 32  # that changes of one plot are told by
 Tell = Callable[[float], None]  # of the part of some work that is done, 0..1
+_MOST_LEARNT = 1 << 23  # pixels of tiles: flattened, they take 128 MB
 _PASSING = 3  # coarser levels from here on are not looked at: that takes longer than to refine the next one
 
 
@@ -67,8 +69,24 @@ class Plot:
 
     @property
     def finest(self) -> int:
-        """Returns the finest level of the canvas at which its example has detail of its own."""
+        """Returns the finest level of the canvas at which its example has detail: its own, and of learnt octaves as
+        many as make no more than _MOST_LEARNT pixels."""
+        own, octaves = self.own_finest, self.region.exemplar.octaves
+        area = len(self.region.masks[0]) * tiles.TILE_SIDE**2
+        while octaves and area << 2 * (own - self.level + octaves) > _MOST_LEARNT:
+            octaves -= 1
+        return own + octaves
+
+    @property
+    def own_finest(self) -> int:
+        """Returns the finest level of the canvas at which its example has pixels of its own."""
         return self.level + len(self.region.exemplar.finer)
+
+    @property
+    def outlined(self) -> bool:
+        """Tells whether it is refined within its outline, which stays that of its own pixels."""
+        learning = self.region.exemplar.learning
+        return learning is not None and not has_alpha(learning)
 
 
 Growth = tuple[Plot, ...]  # the bottom one first, no two of one order, none without a pixel
@@ -340,9 +358,13 @@ def _changed(one: Plot | None, other: Plot | None, finer: bool) -> list[Rect]:
     """Returns what differs at the plots' own level; with `finer`, also what can be seen below it."""
     was, now = (plot.shown[0] if plot is not None and plot.shown else NONE for plot in (one, other))
     found = list(tiles.changed_rects(was, now, 0, slice(None)))
-    if finer and any(plot is not None and plot.region.exemplar.finer for plot in (one, other)):
+    if not finer:
+        return _fewer(found)
+    if any(plot is not None and plot.region.exemplar.finer for plot in (one, other)):
         was, now = (plot.region.levels[0].sources if plot is not None else NONE for plot in (one, other))
         found += [rect.grown(BEYOND) for rect in tiles.changed_rects(was, now, OUTSIDE)]
+    if any(plot is not None and plot.region.exemplar.octaves for plot in (one, other)):
+        found = [rect.grown(LOOKED_ABOUT) for rect in found]
     return _fewer(found)
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from engine.canvas.grown.learnt_below import below_own
 from engine.numeric.address import Rect
 from engine.numeric.grid import snapped
 from engine.painting.textures import LEARNT_SHA, Around, Texture
@@ -25,6 +26,8 @@ from engine.texture.sample import coloured
 from engine.texture.table import KINDS, refinement
 
 _SMALL = 48  # pixels along the sides of a picture that nobody sees
+_KEPT = 16
+_FITTED: dict[str, ImageSource] = {}  # the last maps, by the sha of what they were fitted to
 _KINDS = (*REFINABLE, "canvas", "example")
 
 
@@ -42,7 +45,17 @@ def with_maps(name: str, texture: Texture, around: Around) -> Texture:
     if refinement(texture.parameters) is None:
         return texture
     known = around.pictures.get(texture.parameters.get(LEARNT_SHA, ""))
-    return replace(texture, maps=replace(known, name=name) if known is not None else maps_for(name, source))
+    return replace(texture, maps=replace(_fitted(source) if known is None else known, name=name))
+
+
+def _fitted(source: ImageSource) -> ImageSource:
+    """Returns the maps of a picture, once they were fitted: an example is defined anew with each of its settings."""
+    found = _FITTED.get(source.sha)
+    if found is None:
+        while len(_FITTED) >= _KEPT:
+            _FITTED.pop(next(iter(_FITTED)), None)
+        found = _FITTED[source.sha] = maps_for("", source)
+    return found
 
 
 def maps_for(name: str, source: ImageSource) -> ImageSource:
@@ -99,4 +112,7 @@ def make_once() -> None:
     picture = snapped(np.ascontiguousarray(0.5 + 0.2 * noise(4, (_SMALL, _SMALL), 1), np.float32))
     picture[3] = np.float32(1.0)
     source = ImageSource.of("", picture)
-    Finer(source, Learning(maps_for("", source))).planes(Rect(0, 0, _SMALL, _SMALL))
+    learning = Learning(maps_for("", source))
+    Finer(source, learning).planes(Rect(0, 0, _SMALL, _SMALL))
+    weaker = replace(learning, strength=0.5)
+    below_own(weaker, 1, Rect(0, 0, 2, 2), lambda rect: np.ones((4, rect.height, rect.width), np.float32))

@@ -36,6 +36,8 @@ from engine.texture.example.controlled import analysed_with
 from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar, shrunk
 from engine.texture.example.parameters import FIELDS, Parameters, with_values
 from engine.texture.image import ImageSource
+from engine.texture.learnt.refinement import Learning
+from engine.texture.table import refinement
 
 KIND = "example"
 BUNDLED = Path(__file__).resolve().parents[2] / "palettes" / "examples"
@@ -49,14 +51,15 @@ _CHANGED = "is not what was there when it was recorded"
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """What an exemplar was made of, besides its parameters: its texture's picture and mask, the detail left out, and
-    its control channels with their planes."""
+    """What an exemplar was made of, besides its parameters: its texture's picture and mask, the detail left out, its
+    control channels with their planes, and what was learnt of its picture."""
 
     source: ImageSource
     mask: ImageSource | None
     detail: int
     channels: Channels = ()
     control: ImageSource | None = None
+    learning: Learning | None = None
 
 
 def of_definition(command: c.DefineTexture, around: Around) -> Texture:
@@ -236,7 +239,8 @@ def exemplar_of(texture: Texture, detail: int = 0) -> Exemplar:
     if texture.kind != KIND or texture.source is None or not texture.source.there:
         raise BrushError("brush.example", f"a texture of the kind {texture.kind}", "one of the maker example")
     channels = channels_of(texture)
-    origin = Origin(texture.source, texture.mask, detail, channels, texture.control if channels else None)
+    control = texture.control if channels else None
+    origin = Origin(texture.source, texture.mask, detail, channels, control, learning_of(texture))
     return _analysed(origin, parameters_of(texture), texture.arithmetic)
 
 
@@ -247,6 +251,14 @@ def channels_of(texture: Texture) -> Channels:
     return example_maps.channels_from_json(texture.parameters.get("controls"))
 
 
+def learning_of(texture: Texture) -> Learning | None:
+    """Tells how an example texture goes on below its own pixels, if by what was learnt of it."""
+    how = refinement(texture.parameters)
+    if how is None or texture.maps is None or not texture.maps.there:
+        return None
+    return Learning(texture.maps, *how)
+
+
 def key_of(texture: Texture, detail: int = 0) -> str:
     """Tells whether two exemplars are the same: by what they are made of."""
     assert texture.source is not None
@@ -254,12 +266,18 @@ def key_of(texture: Texture, detail: int = 0) -> str:
     about: tuple[object, ...] = (texture.source.sha, mask, asdict(parameters_of(texture)), detail)
     if texture.control is not None:
         about = (*about, texture.control.sha, example_maps.channels_to_json(channels_of(texture)))
+    learning = learning_of(texture)
+    if learning is not None:
+        about = (*about, learning.maps.sha, learning.strength, learning.octaves)
     return hashlib.sha256(repr(about).encode()).hexdigest()
 
 
 @lru_cache(maxsize=_HELD)
 def _analysed(origin: Origin, parameters: Parameters, arithmetic: int) -> Exemplar:
     source, mask, detail = origin.source, origin.mask, origin.detail
+    if origin.learning is not None:
+        plain = _analysed(replace(origin, learning=None), parameters, arithmetic)
+        return replace(plain, origin=origin, learning=origin.learning)
     if detail:
         whole = _analysed(replace(origin, detail=0), parameters, arithmetic)
         return replace(shrunk(whole, detail), origin=origin)

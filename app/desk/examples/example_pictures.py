@@ -45,4 +45,5 @@ def _stroke(name: str, needs: tuple[DefineTexture, ...], size: tuple[int, int], 
     brush = Brush(radius=radius, mode="example", example=name, hardness=1.0)
     control = Map({ORIENTATION: BY_STROKE}) if follows else Map()
     brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0), control=control)
-    return Swatch(SAMPLE, brush, size, textures=needs, soon=True)
+    plain = tuple(replace(need, arguments=need.arguments.delete("detail")) for need in needs)  # below what is seen
+    return Swatch(SAMPLE, brush, size, textures=plain, soon=True)

@@ -31,6 +31,7 @@ from engine.files.strict_json import BYTES_CAP, loads
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
 from engine.texture.example.parameters import NEW, Parameters, read_toml, with_values
+from engine.texture.record import LEARNT
 
 OWN = "Own"  # the group of the artist's own
 HERE = "In this painting"  # the group of those that only the painting has
@@ -286,7 +287,7 @@ def definition(entry: Entry, told: Mapping[str, Any], maps: Map[str, object] = M
 
     All are told, or a texture of the painting that has others would be taken for this one.
     """
-    given: dict[str, Any] = {**asdict(entry.parameters), **told}
+    given: dict[str, Any] = {**asdict(entry.parameters), **told, "detail": LEARNT}
     if maps != (Map() if entry.own else entry.maps):
         given["maps"] = maps
     if not entry.own:

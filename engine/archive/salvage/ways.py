@@ -188,7 +188,7 @@ class _Parts:
         plots = self._manifest.plots.get(layer.id, ())
         known = self._remains.pictures.keys()
         examples = [self._manifest.examples.get(plot.example) for plot in plots]
-        if any(one is None or not {one.picture, one.mask, one.control} <= {None, *known} for one in examples):
+        if any(one is None or not set(known) >= set(one.pictures) for one in examples):
             return (), False
         try:
             nursery = Nursery.of(self._manifest.examples, plots, self._remains.pictures, self._manifest.arithmetic)

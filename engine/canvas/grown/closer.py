@@ -1,5 +1,5 @@
 """What a region painted with an example looks like below its own pixels: the B-spline of them, as everywhere on the
-canvas, and the finer pixels that the example has where they come from.
+canvas, and the finer pixels that the example has where they come from, or that were learnt of it (`learnt_below`).
 
 The sources go on beyond the region's rim, so that the example's own rim is seen there; where the example goes on too,
 the region ends along the B-spline of its pixels.  Between pixels that come from different places of the example, what
@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from engine.canvas.grown import learnt_below
 from engine.numeric.address import Rect
 from engine.numeric.grid import FINE_STEP, snap
 from engine.numeric.kernel import kernel
@@ -41,14 +42,14 @@ def expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> tuple[np.nd
         return rect.evened() if k == finer else rect.zoomed(k - finer).grown(HALO).evened()
 
     detailed = min(len(region.exemplar.finer), finer)
-    at = needed(detailed)
-    if detailed:
-        value = _detail(region, detailed, at)
-        if not region.fresh(0):
-            _fill(value, base, region, detailed, at)
+    octaves = min(region.exemplar.octaves, finer - detailed)
+    at = needed(detailed + octaves)
+    learning = region.exemplar.learning
+    if octaves and learning is not None:
+        value = learnt_below.below_own(learning, octaves, at, lambda place: _own(base, region, detailed, place))
     else:
-        value = tiles.gathered(base, at, np.zeros((4, at.height, at.width), np.float32))
-    for k in range(detailed + 1, finer + 1):
+        value = _own(base, region, detailed, at)
+    for k in range(detailed + octaves + 1, finer + 1):
         if at.area <= _SMALL and (value == value[:, :1, :1]).all():
             at, value = rect, np.tile(value[:, :1, :1], (1, rect.height, rect.width))
             break
@@ -56,6 +57,17 @@ def expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> tuple[np.nd
         value, at = _expand(value, at, inner), inner
     value.flags.writeable = False  # as tiles are: so the kernel is compiled once
     return value, at
+
+
+def _own(base: Tiles, region: Region, k: int, rect: Rect) -> np.ndarray:
+    """Returns what is shown where the example has pixels of its own, `k` levels below the region's: float32 (4, h, w)
+    of an even rectangle of that level."""
+    if not k:
+        return tiles.gathered(base, rect, np.zeros((4, rect.height, rect.width), np.float32))
+    value = _detail(region, k, rect)
+    if not region.fresh(0):
+        _fill(value, base, region, k, rect)
+    return value
 
 
 def _detail(region: Region, k: int, rect: Rect) -> np.ndarray:

@@ -21,6 +21,7 @@ from engine.numeric.halving import halved, halved_region
 from engine.numeric.neighbourhood import FULL, RADIUS, region_bits, straight_shapes
 from engine.texture.example.control import Control
 from engine.texture.example.parameters import MOST_LEVELS, SEAMLESS, Parameters
+from engine.texture.learnt.refinement import Learning
 
 PAD = RADIUS + 1  # a neighbourhood and one pixel more, to fill the register
 EXAMPLE_SIDE = 1024  # pixels along an example, at most
@@ -61,7 +62,7 @@ class Exemplar:
     `finer`: what there is of the example in levels below the finest of `levels`, the coarsest of them first:
     premultiplied float32 (h, w, 4) in 0..1, twice as large each.
     `origin`: what it was made of, for whoever has to make it again; `arithmetic`: in which it was analysed.
-    `control`: its control channels.
+    `control`: its control channels; `learning`: how it is refined below its own pixels, if it is.
     """
 
     pixels: np.ndarray
@@ -75,6 +76,12 @@ class Exemplar:
     origin: Any = None
     arithmetic: int = LIBRARY
     control: Control | None = None
+    learning: Learning | None = None
+
+    @property
+    def octaves(self) -> int:
+        """Counts the octaves that are learnt below its own pixels."""
+        return 0 if self.learning is None else self.learning.there
 
     @cached_property
     def average(self) -> np.ndarray:

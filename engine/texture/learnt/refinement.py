@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -47,24 +47,26 @@ class Learning:
 
         `own`: gives the picture's own pixels, (C, h, w) in 0..1, over any rectangle."""
         even = rect.evened()
-        return cut(self._octave(octave, even, own)[0], rect, even)
+        return cut(self._below(octave, even, partial(self.seen, octave - 1, own=own))[0], rect, even)
 
     def seen(self, octave: int, rect: Rect, own: Callable[[Rect], np.ndarray]) -> np.ndarray:
         """Returns the picture with the octaves up to one: as `added`."""
-        if not octave:
-            return own(rect)
+        return self.seen_below(octave, rect, partial(self.seen, octave - 1, own=own)) if octave else own(rect)
+
+    def seen_below(self, octave: int, rect: Rect, above: Callable[[Rect], np.ndarray]) -> np.ndarray:
+        """Returns an octave below a picture: as `added`; `above` gives that picture."""
         even = rect.evened()
-        added, coarse = self._octave(octave, even, own)
+        added, coarse = self._below(octave, even, above)
         out = np.negative(added)
         subtract_expanded(out, coarse)
         return cut(np.negative(out, out=out), rect, even)
 
-    def _octave(self, octave: int, even: Rect, own: Callable[[Rect], np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-        """Returns what is added over an even rectangle, and the picture with the octaves before over its parents."""
+    def _below(self, octave: int, even: Rect, seen: Callable[[Rect], np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+        """Returns what is added over an even rectangle, and what is `seen` with the octaves before over its parents."""
         maps = maps_of(self.maps)
         assert maps is not None
         above = even.zoomed(-1)
-        planes = np.ascontiguousarray(self.seen(octave - 1, above.grown(LOOKED_ROUND), own))
+        planes = np.ascontiguousarray(seen(above.grown(LOOKED_ROUND)))
         near = above.grown(1)
         hashes = hash_plane(_key(self.maps.sha, octave), near.x0, near.y0, near.width, near.height)
         out = refined(planes, hashes, maps, octave - 1)

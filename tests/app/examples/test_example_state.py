@@ -34,7 +34,7 @@ def test_the_brush_grows_what_was_chosen_and_the_painting_gets_it_with_the_first
     assert not posted
     usual = asdict(named(desk, "felt").parameters)
     assert [to_json(need) for need in desk.hand.needs] == [
-        {"do": "texture", "name": "Felt", "maker": "example", "bundled": "felt", **usual}
+        {"do": "texture", "name": "Felt", "maker": "example", "bundled": "felt", **usual, "detail": "learnt"}
     ]
     level, brush = desk.stroke_brush(eraser=False)
     assert (level, brush.example_level, brush.example_detail) == (0, 0, 0)
@@ -122,7 +122,7 @@ def test_settings_are_told_where_they_differ_and_are_used_on_demand(desk):
     state = desk.examples
     state.set(entry, "kappa", 9.0)
     assert state.tried(entry)
-    usual = {"bundled": "felt", **asdict(entry.parameters)}
+    usual = {"bundled": "felt", "detail": "learnt", **asdict(entry.parameters)}
     assert dict(state.command(entry).arguments) == usual
     assert dict(state.command(entry, draft=True).arguments) == usual | {"kappa": 9.0}
     example_work.use_settings(desk)
@@ -147,13 +147,14 @@ def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, 
         example_pictures.ask_sample(state, posted.append, now)
     assert [type(request) for request in posted] == [Swatch] * 3
     assert posted[-1].textures[0].arguments["kappa"] == 3.0
+    assert "detail" not in posted[-1].textures[0].arguments  # nothing of it would be seen
     assert state.at_home(replace(desk.hand.brush, example_level=77)).example_level == 0
 
 
 def test_examples_that_only_the_painting_has_are_listed_and_painted_with(desk, posted):
     """Neither those that come along, as they came or with other settings in use, nor the artist's own."""
     felt = named(desk, "felt")
-    plain = {"bundled": "felt", **asdict(felt.parameters)}
+    plain = {"bundled": "felt", "detail": "learnt", **asdict(felt.parameters)}
     desk.examples.used[felt.ident] = Map(kappa=9.0)
     lost = {"path": "/nowhere/rag.png", "sha": "1"}
     given = (("Felt", plain), ("F", plain | {"kappa": 9.0}), ("G", plain | {"kappa": 8.0}), ("Rag", lost))

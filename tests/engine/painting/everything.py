@@ -128,7 +128,7 @@ def _grown() -> Iterator[tuple[str, list[Any]]]:
     as_it_is = texture("example", path="blob.png", smooth=1.7, channels="luminance")
     yield "example-luminance", [as_it_is, grow, stroke(*BACK, mode="example", example="t", radius=8)]
     thin = stroke(*BACK, mode="example", example="t", radius=4)
-    yield "example-seamless", [texture("example", path="blob.png", method=2), grow, thin]
+    yield "example-seamless", [texture("example", path="blob.png", method=2, detail="learnt"), grow, thin]
     yield "example-mask", [texture("example", path="colour.png", mask="grey.png", kappa=2), grow]
     over = stroke(*BACK, mode="example", example="u", radius=9, depth=1, example_detail=1)
     other = texture("example", "u", path="colour.png")

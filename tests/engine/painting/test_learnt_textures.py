@@ -10,11 +10,13 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
+from engine.canvas.reading import layer_planes
 from engine.makers import definitions
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE
 from engine.painting import recording as r
 from engine.painting.commands import parse, to_json
+from engine.painting.grown import settled
 from engine.session.apply import Around, Painting, Refusal, apply
 from engine.session.replay import replay
 from engine.texture.learnt.inks import LearntImage, LearntMatched
@@ -103,6 +105,33 @@ def test_detail_goes_on_below_the_pictures_own_pixels(folder):
         assert isinstance(ink, LearntImage) == bool(detail)
     assert sizes[False] == [None, None, None]
     assert [one is not None for one in sizes[True]] == [True, True, False]
+
+
+@pytest.mark.parametrize(("path", "more"), [("clear.png", {}), ("a.png", {"strength": 0.6, "octaves": 1})])
+def test_strokes_that_grow_go_on_below_their_examples_pixels(folder, path, more):
+    """Replayed, saved and opened without the picture and its texture they look the same; with other detail they are
+    another plot."""
+    brush = {"radius": 14, "hardness": 1, "mode": "example", "example": "t"}
+    grow = {"do": "stroke", "points": [[4, 6], [44, 36]], "brush": brush}
+    gone = {"do": "texture", "name": "t", "maker": "rock"}
+    session = replayed(folder, texture(maker="example", path=path, **more), grow, gone)
+    once, plain = settled(session.painting), replayed(folder, {**texture(maker="example", path=path), "detail": None})
+    assert "maps_sha" not in plain.recording().commands[0].arguments
+    plain = settled(apply(plain.painting, parse(grow)))
+    own, other = (layers_of(one)[0].growth[0] for one in (once, plain))
+    assert own.key != other.key
+    assert (own.finest, other.finest) == (more.get("octaves", 2), 0)
+    seen = [layer_planes(layers_of(one)[0], 0, Rect(0, 0, 48, 40)) for one in (once, plain)]
+    assert np.array_equal(*seen)
+    save(folder / "a.ora", Snapshot(once, session.recording()))
+    (folder / path).unlink()
+    found = open_painting(folder / "a.ora")
+    assert not found.notes
+    again = settled(found.painting)
+    for level, rect in PLACES[:4]:
+        near, opened = (layer_planes(layers_of(one)[0], level, rect) for one in (once, again))
+        assert np.array_equal(near, opened)
+    assert layers_of(again)[0].growth[0].region.exemplar.learning == own.region.exemplar.learning
 
 
 def test_two_ways_to_say_it(folder):
