@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from engine.numeric.detail import add_expanded, cut, parents, subtract_expanded
 from engine.numeric.grid import FINE_STEP, snapped
 from engine.numeric.kernel import Array, inner, kernel
 from engine.numeric.pyramid import expand_into
+from engine.texture.learnt.kinds import LOOKED_ROUND
 from engine.texture.learnt.maps import Maps, maps_of
 from engine.texture.learnt.refinement import Learning, channels_of
 
@@ -56,9 +56,11 @@ def _below(learning: Learning, octave: int, rect: Rect, own: Callable[[Rect], np
     them: so it looks the same from farther away."""
     if not octave:
         return own(rect)
-    above, even = partial(_below, learning, octave - 1, own=own), rect.evened()
-    out = replace(learning, strength=1.0).seen_below(octave, even, above)
-    coarse = np.ascontiguousarray(above(parents(even)))
+    even = rect.evened()
+    wide = even.zoomed(-1).grown(LOOKED_ROUND)
+    above = _below(learning, octave - 1, wide, own)
+    out = replace(learning, strength=1.0).seen_below(octave, even, lambda place: cut(above, place, wide))
+    coarse = cut(above, parents(even), wide)
     _centre(coarse, out)
     if learning.strength < 1.0:
         subtract_expanded(out, coarse)
