@@ -62,8 +62,8 @@ def filled_planes(inks: tuple[Instance, ...], used: np.ndarray) -> tuple[np.ndar
 
 
 def trimmed(rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], depth: int, full: bool) -> Record | None:
-    """As `compact`, of int16, which is the record's own where nothing is to be left out.  `full`: whether something lies
-    at each edge."""
+    """As `compact`, of int16, which is the record's own where nothing is to be left out.  `full`: whether something
+    lies at each edge."""
     if full and not inks:  # what fills its rectangle is not gone through
         data.flags.writeable = False
         return Record(rect, data, inks, depth)

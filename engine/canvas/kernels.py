@@ -117,9 +117,7 @@ def apply_stamp(
         for i in range(n):
             s[i] = np.uint8(a[i] != _ONE)
             found |= s[i]
-        first, last = 0, n
-        if plain:
-            first, last = ends(s, found)
+        first, last = ends(s, found) if plain else (0, n)
         for c in range(old.shape[0]):
             before, after = old[c, y], new[c, y]
             for i in range(n):

@@ -186,7 +186,7 @@ def _unpacked(old: Record | None, at: Rect, inks: tuple[Instance, ...], kind: ty
 
 def _renewed(it: _Renewed, old: Record | None, inks: tuple[Instance, ...]) -> Record | _Told | None:
     """As `_record` where no ink adds texture and int16 holds what there was; LARGE if it does not hold what is."""
-    (x0, y0, x1, y1), rect, corner = it.part, it.touched.rect, it.above.rect
+    (x0, y0, _, y1), rect, corner = it.part, it.touched.rect, it.above.rect
     at = it.within(it.part)
     at = at if old is None else at.union(old.rect)
     data = _unpacked(old, at, inks, np.int16)

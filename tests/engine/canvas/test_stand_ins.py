@@ -74,7 +74,19 @@ def test_plain_strokes_are_the_same_bits(request):
 def test_extents_of_nothing():
     for keep in (np.ones((6, 9), np.float32), 1.0 - np.eye(6, 9, 2, dtype=np.float32)):
         old, new, marks = np.ones((4, 6, 9), np.float32), np.empty((4, 6, 9), np.float32), blank_marks(6, 9)
-        arguments = old, keep, np.zeros_like(old), _NO_COLOUR, np.arange(4), True, False, new, marks, FINE_STEP, NO_DITHER
+        arguments = (
+            old,
+            keep,
+            np.zeros_like(old),
+            _NO_COLOUR,
+            np.arange(4),
+            True,
+            False,
+            new,
+            marks,
+            FINE_STEP,
+            NO_DITHER,
+        )
         assert kernels.apply_stamp.compiled(*arguments) == kernels.apply_stamp.plain(*arguments)
     for data in (np.zeros((2, 5, 7), np.int32), np.arange(-35, 35, dtype=np.int32).reshape(2, 5, 7)):
         used = np.empty((2, 2), np.int32)
