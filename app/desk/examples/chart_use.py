@@ -7,12 +7,27 @@ from immutables import Map
 from app.desk.examples.example_state import Entry, ExampleState
 from engine.brush.parts import BY_STROKE
 from engine.brush.settings import Brush
-from engine.texture.example.parameters import ORIENTATION
+from engine.texture.example.parameters import ORIENTATION, RIM_CHANNEL
 
 
 def maps_of(state: ExampleState, entry: Entry) -> Map[str, object]:
     """Returns the maps that an example is painted with."""
     return state.charts.get(entry.ident, entry.maps)
+
+
+def shades(state: ExampleState) -> tuple[str, ...]:
+    """Returns the names of the maps of the chosen example that strokes may tell a number."""
+    entry = state.entry
+    if entry is None:
+        return ()
+    names = maps_of(state, entry) if entry.here is None else [row[0] for row in entry.here.get("controls", ())]
+    return tuple(name for name in names if name not in (ORIENTATION, RIM_CHANNEL))
+
+
+def told_number(brush: Brush, name: str) -> float | None:
+    """Returns the number that a brush tells a map; None where it tells none."""
+    found = brush.control.get(name)
+    return float(found) if isinstance(found, int | float) else None
 
 
 def runs(state: ExampleState, entry: Entry | None) -> bool:

@@ -85,6 +85,16 @@ def set_following(desk: Desk, on: bool) -> None:
     take_example(desk)
 
 
+def tell_number(desk: Desk, name: str, value: float | None) -> None:
+    """Strokes tell a map of the example a number, 0..1, or None: what the example is in the mean."""
+    control = desk.hand.brush.control
+    if value is not None:
+        control = control.set(name, value)
+    elif name in control:
+        control = control.delete(name)
+    desk.hand.change(control=control)
+
+
 def adopt(desk: Desk) -> None:
     """The panel shows what a brush has that came with an example of its own; its size fits what is seen."""
     state, brush = desk.examples, desk.hand.brush

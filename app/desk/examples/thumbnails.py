@@ -1,4 +1,6 @@
-"""Thumbnails of examples, made on a thread of their own: each is cut out by its region and lies on paper."""
+"""Thumbnails of examples, made on a thread of their own: each is cut out by its region and lies on paper; and the
+pictures that maps of theirs are.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +8,15 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 
 import numpy as np
 
 from app.desk.examples import own_example_files
+from app.desk.examples.charts import chart_of
 from app.desk.examples.example_state import Entry
 from engine.files.fault import FileError
+from engine.files.images import read_image
 from engine.studio.results import Picture
 
 PAPER = (214, 209, 200)  # sRGB
@@ -24,6 +29,17 @@ def ident(entry: Entry) -> str:
     return f"example {entry.ident}"
 
 
+def map_path(told: object) -> str:
+    """Returns the path of the picture that a map is, as a definition tells it; empty if it is none."""
+    path = chart_of(told).get("path", "")
+    return path if isinstance(path, str) else ""
+
+
+def map_ident(path: str) -> str:
+    """Returns what the picture of a map is called."""
+    return f"map {path}"
+
+
 def side(scale: float) -> int:
     """Returns the side of a thumbnail, pixels, where a point is `scale` of them."""
     return round(LARGE * scale)
@@ -34,18 +50,23 @@ class Shelf:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        self._wanted: deque[tuple[Entry, int]] = deque()
+        self._wanted: deque[Callable[[], Picture]] = deque()
         self._ready: deque[Picture] = deque()
         self._known: dict[str, tuple[str, int]] = {}
         self._thread: threading.Thread | None = None
 
     def ask(self, entries: tuple[Entry, ...], side: int) -> None:
-        """Has thumbnails made of those with files that have none, or none of that size, or another region by now."""
+        """Has thumbnails made of those with files that have none, or none of that size, or another region by now; and
+        their maps read that are pictures, once."""
         for entry in (entry for entry in entries if entry.here is None):
             state = entry.mask_sha, side
             if self._known.get(entry.ident) != state:
                 self._known[entry.ident] = state
-                self._wanted.append((entry, side))
+                self._wanted.append(partial(_seen, entry, side))
+            for path in map(map_path, entry.maps.values()):
+                if path and map_ident(path) not in self._known:
+                    self._known[map_ident(path)] = "", 0
+                    self._wanted.append(partial(_map_seen, path))
         if self._wanted and (self._thread is None or not self._thread.is_alive()):
             self._thread = threading.Thread(target=self._work, name="inkfall thumbnails", daemon=True)
             self._thread.start()
@@ -59,10 +80,23 @@ class Shelf:
 
     def _work(self) -> None:
         while self._wanted:
-            entry, side = self._wanted.popleft()
+            make = self._wanted.popleft()
             with suppress(FileError, OSError):  # a picture that cannot be read has no thumbnail
-                self._ready.append(Picture(ident(entry), thumbnail(entry, side)))
+                self._ready.append(make())
                 self._wake()
+
+
+def _seen(entry: Entry, side: int) -> Picture:
+    return Picture(ident(entry), thumbnail(entry, side))
+
+
+def _map_seen(path: str) -> Picture:
+    """Returns the picture of a map as dark and light as it tells."""
+    pixels, _ = read_image(path)
+    full = int(np.iinfo(pixels.dtype).max)
+    out = np.full(pixels.shape, 255, np.uint8)
+    out[..., :3] = (pixels[..., :3].astype(np.int64).sum(axis=-1) * 255 // (3 * full))[..., None]
+    return Picture(map_ident(path), out)
 
 
 def thumbnail(entry: Entry, side: int) -> np.ndarray:

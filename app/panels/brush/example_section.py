@@ -20,6 +20,7 @@ _SIZES = (
     ("2", "4", "Four times as large"),
 )
 _FOLLOW = "The texture runs the way each stroke goes: for thatch, fur, hair. Stroke over it again to comb it"
+_TELL = "What strokes tell this map of the example: parts as dark or light grow. At the left end, its mean"
 _DEPTH = (
     "At the same depth the same texture joins, another takes its place. A greater depth lies over what is there, a "
     "smaller one goes under it"
@@ -49,6 +50,14 @@ def draw(desk: Desk) -> None:
     changed, on = w.tick("Follow the pen", state.follows and chart_use.runs(state, state.entry), _FOLLOW)
     if changed:
         example_use.set_following(desk, on)
+    for name in chart_use.shades(state):
+        told = chart_use.told_number(desk.hand.brush, name)
+        form = "as it is" if told is None else "%.0f%%"
+        changed, value = w.slider(
+            f"Map {name}", -1.0 if told is None else 100.0 * told, (-1.0, 100.0), _TELL, form=form
+        )
+        if changed:
+            example_use.tell_number(desk, name, None if value < 0.0 else round(value) / 100.0)
 
 
 def draw_eraser(desk: Desk) -> None:

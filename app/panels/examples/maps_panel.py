@@ -17,7 +17,7 @@ from app.actions.actions import ACTIONS
 from app.desk.desk import Desk
 from app.desk.examples import chart_state, chart_use, chart_work
 from app.desk.examples.chart_state import ChartState, strokes_of
-from app.desk.examples.charts import chart_of
+from app.desk.examples.thumbnails import map_ident, map_path
 from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
@@ -25,6 +25,7 @@ from app.panels.examples.region_picture import draw_picture
 from engine.texture.example.parameters import ORIENTATION, RIM_CHANNEL
 
 _WIDE = 232.0  # width of the tools, points
+_THROUGH = 0.7  # how opaque the picture of a map lies on the example
 _ARROW = (1.0, 0.85, 0.25)  # sRGB
 _RUNS = "Draw on the picture which way it runs: strokes of the brush turn it as they go"
 _SHADES = "Paint dark and light: where a brush tells this map a value, what was painted alike grows"
@@ -46,6 +47,7 @@ class MapsPanel:
         imgui.begin_child("map picture", ImVec2(room.x - _WIDE * desk.scale - gap, 0))
         radius = None if state.chart.name == ORIENTATION else state.chart.radius
         draw_picture(desk, (f"region {state.chosen}",), region.scene.size, radius)
+        _picture(desk, map_path(maps.get(state.chart.name)))
         _strokes(desk, state.chart, strokes_of(maps, state.chart.name))
         imgui.end_child()
         imgui.same_line()
@@ -78,10 +80,10 @@ class MapsPanel:
         picked = w.choice("map", chart.name, options, "Which map is drawn: those of the example’s file", wide)
         if picked is not None and picked != chart.name:
             desk.examples.chart = chart = ChartState(picked)
-        path = chart_of(maps.get(chart.name)).get("path")
+        path = map_path(maps.get(chart.name))
         imgui.push_text_wrap_pos(0.0)
         said.text_disabled(_RUNS if chart.name == ORIENTATION else _SHADES)
-        if isinstance(path, str):
+        if path:
             said.text_disabled(f"Over {Path(path).name}")
         imgui.pop_text_wrap_pos()
         if chart.name != ORIENTATION:
@@ -117,6 +119,18 @@ class MapsPanel:
         state, entry = desk.examples, desk.examples.entry
         if entry is not None:
             chart_work.use(desk, state.chart.step(chart_use.maps_of(state, entry), back))
+
+
+def _picture(desk: Desk, path: str) -> None:
+    """Draws the picture that the map is over the example's, which is seen through it."""
+    state, seen = desk.examples, desk.pictures.get(map_ident(path))
+    if state.spot is None or state.region is None or seen is None:
+        return
+    (left, top, scale), (width, height) = state.spot, state.region.scene.size
+    end, corners = ImVec2(left + width * scale, top + height * scale), (ImVec2(0, 0), ImVec2(1, 1))
+    imgui.get_window_draw_list().add_image(
+        seen, ImVec2(left, top), end, *corners, theme.packed((1.0, 1.0, 1.0), _THROUGH)
+    )
 
 
 def _strokes(desk: Desk, chart: ChartState, strokes: tuple[object, ...]) -> None:

@@ -11,6 +11,7 @@ import argparse
 import sys
 from pathlib import Path
 
+import beach
 import cloth
 import coats
 import crusts
@@ -26,7 +27,7 @@ import weather
 from PIL import Image
 
 FOLDER = Path(__file__).resolve().parents[1]
-SUBJECTS = (watercolour, variegated, marks, paper, orange, crusts, stone, plants, weather, cloth, coats)
+SUBJECTS = (watercolour, variegated, marks, paper, orange, crusts, stone, plants, weather, cloth, coats, beach)
 EXAMPLES = {name: make for subject in SUBJECTS for name, make in subject.EXAMPLES.items()}
 
 

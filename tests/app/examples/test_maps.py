@@ -76,6 +76,22 @@ def test_the_pen_is_followed_where_the_example_runs_somewhere(desk, tmp_path):
     assert state.command(felt).arguments["maps"] == Map({"orientation": Map({"strokes": ()})})
 
 
+def test_strokes_tell_a_map_a_number_or_nothing(desk):
+    state = desk.examples
+    example_use.choose(desk, next(entry for entry in state.entries if entry.name == "shingle"))
+    assert chart_use.shades(state) == ("size",)
+    assert chart_use.told_number(desk.hand.brush, "size") is None
+    example_use.tell_number(desk, "size", 0.25)
+    example_use.follow(desk)
+    assert desk.hand.brush.control == Map({"size": 0.25})
+    assert chart_use.told_number(desk.hand.brush, "size") == 0.25
+    for _ in range(2):
+        example_use.tell_number(desk, "size", None)
+        assert not desk.hand.brush.control
+    example_use.choose(desk, next(entry for entry in state.entries if entry.name == "thatch"))
+    assert chart_use.shades(state) == ()
+
+
 def test_paths_of_maps_start_from_the_examples_folder(tmp_path):
     picture(tmp_path / "a.png")
     (tmp_path / "a.toml").write_text('maps.size = "sizes.png"\n')

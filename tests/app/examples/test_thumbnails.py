@@ -2,7 +2,10 @@
 
 from dataclasses import replace
 
+import numpy as np
 from examples_at_hand import named
+from immutables import Map
+from PIL import Image
 
 from app.desk.examples import thumbnails
 from app.desk.examples.example_state import Entry
@@ -32,6 +35,19 @@ def test_thumbnails_are_made_once_and_again_for_another_region(desk, tmp_path):
         made._thread.join(20)
     assert [picture.ident for picture in made.take()] == ["example bundled felt"] * 2
     assert len(woken) == 2
+
+
+def test_maps_that_are_pictures_are_read_once_as_dark_and_light_as_they_tell(desk, tmp_path):
+    path = tmp_path / "sizes.png"
+    Image.fromarray(np.array([[[0, 0, 0], [255, 255, 255], [90, 60, 30]]], np.uint8)).save(path)
+    maps = Map({"size": Map({"path": str(path)}), "gone": str(tmp_path / "gone.png"), "rim": Map({"width": 9})})
+    made = thumbnails.Shelf(lambda: None)
+    for _ in range(2):
+        made.ask((replace(named(desk, "felt"), maps=maps),), 32)
+        made._thread.join(20)
+    told = {picture.ident: picture.pixels for picture in made.take()}
+    assert sorted(told) == ["example bundled felt", thumbnails.map_ident(str(path))]
+    assert told[thumbnails.map_ident(str(path))].tolist() == [[[n, n, n, 255] for n in (0, 255, 60)]]
 
 
 def test_thumbnails_grow_into_the_room_that_there_is():
