@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.canvas import plain as plainly
-from engine.canvas.plain import QUARTER
+from engine.canvas.plain import QUARTER, Pair
 from engine.canvas.rising.spans import Extent, Marks, ends, spanned
 from engine.numeric.grid import snap, snap_to
 from engine.numeric.kernel import Array, inner_uncounted, kernel, uncounted
@@ -124,10 +124,7 @@ def apply_stamp(
                 after[i] = before[i]
             if first < last and not (c == 3 and spares_alpha):
                 where = planes[c], y, first
-                if colour.size and planes[c] >= 0:
-                    _wash_row(a[first:last], before[first:last], colour, where, noise, step, after[first:last])
-                else:
-                    _stamp_row(a[first:last], before[first:last], add, where, noise, step, after[first:last])
+                _stamp_row(a[first:last], before[first:last], (add, colour), where, noise, step, after[first:last])
             if c == 3 and not spares_alpha:
                 for i in range(n):
                     after[i] = min(max(after[i], _ZERO), _ONE)
@@ -164,11 +161,14 @@ def _wash_row(
 
 @inner_uncounted
 def _stamp_row(
-    a: Array, before: Array, add: Array, where: tuple[int, int, int], noise: Array, step: np.float32, after: Array
+    a: Array, before: Array, paint: Pair, where: tuple[int, int, int], noise: Array, step: np.float32, after: Array
 ) -> None:
-    """A row of `apply_stamp` from a column on; `where`: the plane of B, -1 for none, the row and the column."""
-    source, y, first = where
-    if noise.size:
+    """A row of `apply_stamp` from a column on; `paint`: B, or a colour; `where`: the plane of B, -1 for none, the row
+    and the column."""
+    (source, y, first), (add, colour) = where, paint
+    if colour.size and source >= 0:
+        _wash_row(a, before, colour, where, noise, step, after)
+    elif noise.size:
         _stamp_row_coarsely(a, before, add, where, noise[y, first : first + a.size], step, after)
     elif source < 0:
         for i in range(a.size):
