@@ -7,6 +7,7 @@ import numpy as np
 from engine.canvas.plain import Corner, Window
 from engine.canvas.rising import plain_counting as plainly
 from engine.canvas.rising.spans import Found, Marks, Span
+from engine.numeric.ahead import ask
 from engine.numeric.grid import snap_to
 from engine.numeric.kernel import Array, inlined, inner_uncounted, kernel, uncounted
 from engine.numeric.stand_in import or_plain
@@ -138,11 +139,9 @@ def renew(
     """
     (line, column), (top, left) = start, corner
     touched, spans = marks
-    begin, height, tile, down, right, edge = window
+    begin, height, tile, down, right = window[:5]
     bits, changed = np.int32(0), np.int32(0)
-    for y in range(begin, begin + height):
-        first, last = spans[y, tile, 0], spans[y, tile, 1]
-        told[y - begin, 0], told[y - begin, 1] = max(first - edge, 0), max(last - edge, 0)
+    _ask_for(value, start, coarse, corner, spans, window, told)
     for c in range(out.shape[0]):
         for y in range(begin, begin + height):
             first, last = spans[y, tile, 0], spans[y, tile, 1]
@@ -158,6 +157,25 @@ def renew(
                 bits |= abs(new)
                 o[i] = np.int16(new)
     return changed != 0, bits, _fills(out)  # type: ignore[return-value]
+
+
+@inner_uncounted
+def _ask_for(
+    value: Array, start: Corner, coarse: Array, corner: Corner, spans: Array, window: Window, told: Array
+) -> None:
+    """Asks for all that `renew` reads at once, and tells the spans."""
+    begin, height, tile, _, _, edge = window
+    for y in range(begin, begin + height):
+        first, last = spans[y, tile, 0], spans[y, tile, 1]
+        told[y - begin, 0], told[y - begin, 1] = max(first - edge, 0), max(last - edge, 0)
+        if first >= last:
+            continue
+        left = corner[1] + first // 2
+        for c in range(value.shape[0]):
+            ask(value, c, start[0] + y, start[1] + first, start[1] + last)
+        if y & 1:
+            for c in range(coarse.shape[0]):
+                ask(coarse, c, corner[0] + 1 + y // 2, left, left + (last - first) // 2 + 2)
 
 
 @inner_uncounted

@@ -7,6 +7,7 @@ import numpy as np
 from engine.canvas.plain import LAG, QUARTER, Pair, Window
 from engine.canvas.rising import plain_lifting as plainly
 from engine.canvas.rising.spans import NO_COLUMNS, Lowered, Marks, Means, Spare, ends
+from engine.numeric.ahead import ask
 from engine.numeric.grid import snap, snap_to
 from engine.numeric.kernel import Array, inner_uncounted, uncounted
 from engine.numeric.stand_in import or_plain
@@ -102,6 +103,14 @@ def climb(
     spans = here[2]
     y0, y1, s0, s1 = window[:4]
     count = 0
+    for y in range(y0, y1):
+        for s in range(s0, s1):
+            first, last = spans[y, s, 0], spans[y, s, 1]
+            if first < last:
+                ask(here[0], 0, y, first, last)
+                ask(here[1], 0, y, first, last)
+                for c in range(values.shape[0]):
+                    ask(values, c, y, first, last)
     for y in range(y0, y1, 2):
         for s in range(s0, s1):
             first = min(spans[y, s, 0], spans[y + 1, s, 0]) & ~1
