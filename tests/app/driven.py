@@ -158,16 +158,19 @@ class Program:
 
     def fill(self, text: str) -> None:
         """Types into the field that has the focus, instead of what is in it; again until that stands there: a key
-        may be lost on a busy machine."""
+        may be lost on a busy machine, where a long name takes many seconds to come in."""
         end = time.monotonic() + PATIENCE
         while True:
             self.wait_until(self._typing, "no field takes what is typed")
             self.keys("ctrl+a")
             self.type(text)
-            soon = time.monotonic() + 3.0
+            stands, soon = "", time.monotonic() + 3.0
             while time.monotonic() < soon:
-                if f"\n{self.log.read_text()}".rpartition("\ntyping ")[2].startswith(f"on {json.dumps(text)}\n"):
+                told = f"\n{self.log.read_text()}".rpartition("\ntyping ")[2].partition("\n")[0]
+                if told == f"on {json.dumps(text)}":
                     return
+                if told != stands:
+                    stands, soon = told, time.monotonic() + 3.0
                 time.sleep(0.05)
             assert time.monotonic() < end, f"{text!r} does not stand there: {self.log.read_text()[-2000:]}"
 
