@@ -14,6 +14,7 @@ from app.desk.holding.picking_up import take_ink
 from app.desk.known import Known, known_after
 from app.desk.moving import independence
 from app.desk.outside import clipboard
+from app.desk.outside.arriving import welcome_arrived
 from app.desk.outside.noting_opened import follow_opened
 from app.desk.recovery import recovery_work
 from app.desk.stack.row_colours import follow_rows
@@ -64,6 +65,7 @@ def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
     recovery_work.offer(desk, scene)
     follow_opened(desk)
     keep_colours(desk)
+    welcome_arrived(desk)
 
 
 def _done(desk: Desk, done: Done, _now: float) -> None:

@@ -34,6 +34,7 @@ from app.desk.masks.mask_state import MaskState
 from app.desk.match_state import MatchState
 from app.desk.moving.move_state import MoveState
 from app.desk.notices import Notice, Notices
+from app.desk.outside.arrival_state import Arriving
 from app.desk.outside.opened_files import OpenedFiles
 from app.desk.past.past_state import PastState
 from app.desk.places.place_state import PlaceState
@@ -165,6 +166,7 @@ class Desk:
     proofing: ProofState = field(default_factory=ProofState)
     remembered: Remembered = field(default_factory=Remembered)
     start: StartState = field(default_factory=StartState)
+    arriving: Arriving = field(default_factory=Arriving)
     solid: SolidState = field(default_factory=SolidState)
     workshop: WorkshopState = field(default_factory=WorkshopState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
@@ -196,6 +198,7 @@ class Desk:
             self.notices.settle(note.about)
             self.say(text, note.bad)
         if note.bad:
+            self.arriving = Arriving()
             self.asked.give_up()
 
     def guard(self, then: Then) -> None:

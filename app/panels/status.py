@@ -177,6 +177,8 @@ def _work(desk: Desk) -> str:
         return f"{icons.DISK} {word}{grown}"
     if desk.known.preparing is not None and time.monotonic() - desk.known.preparing > _PATIENCE:
         return f"{icons.WAIT} examples: getting ready"
+    if desk.arriving.name:
+        return f"{icons.WAIT} bringing in"
     brushes = desk.known.prepared
     if brushes.ready < brushes.of:
         return f"{icons.WAIT} Preparing brushes, {brushes.ready} of {brushes.of}"

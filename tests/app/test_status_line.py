@@ -9,11 +9,12 @@ from app.canvas.view import Place, View
 from app.desk.desk import Desk
 from app.desk.known import Known, known_after
 from app.desk.outside import bringing
-from app.panels.status import _memory, now_possible
+from app.desk.outside.arriving import welcome_arrived
+from app.panels.status import _memory, _work, now_possible
 from engine.numeric.address import Rect
 from engine.studio.held.held_records import Held
 from engine.studio.layer_rows import LayerRow
-from engine.studio.results import Scene
+from engine.studio.results import Note, Scene
 
 MB = 1 << 20
 
@@ -61,12 +62,27 @@ def test_one_is_told_that_the_brush_hides_and_shows_while_a_mask_is_painted_on()
     assert now_possible(desk).startswith("Drag the picture")
 
 
-@pytest.mark.parametrize(("side", "told"), [(300, "Drag “sky 2”"), (8000, "Laying “sky 2”.  Drag")])
-def test_of_a_large_picture_one_is_told_that_it_is_on_its_way(side, told):
+@pytest.mark.parametrize("meanwhile", ["brush", "pan"])
+def test_a_picture_is_told_to_be_on_its_way_until_it_lies_there_and_then_it_is_what_is_moved(meanwhile):
     desk = desk_on(replace(ROW, name="sky"))
-    bringing.lay(desk, Path("sky.png"), "sky", (side, side), Place(0, 0, 0))
-    assert desk.message.text.startswith(told)
-    assert desk.hand.tool == "move"
+    bringing.lay(desk, Path("sky.png"), "sky", (300, 300), Place(0, 0, 0))
+    welcome_arrived(desk)  # something else of the painting has changed
+    assert desk.message.text == "Bringing in “sky 2”…"
+    assert _work(desk).endswith("bringing in")
+    assert desk.hand.tool == "brush"
+    desk.hand.use(meanwhile)
+    desk.known = replace(desk.known, scene=desk_on(replace(ROW, name="sky 2")).known.scene)
+    welcome_arrived(desk)
+    assert desk.message.text.startswith("Drag “sky 2”")
+    assert _work(desk) == ""
+    assert desk.hand.tool == ("move" if meanwhile == "brush" else meanwhile)
+
+
+def test_what_cannot_be_brought_in_is_waited_for_no_longer():
+    desk = desk_on(ROW)
+    bringing.lay(desk, Path("sky.png"), "sky", (300, 300), Place(0, 0, 0))
+    desk.told(Note("sky.png: found no picture", bad=True))
+    assert _work(desk) == ""
 
 
 @pytest.mark.parametrize(("side", "refined"), [(400, True), (5000, False)])

@@ -10,6 +10,7 @@ from immutables import Map
 
 from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
+from app.desk.outside.arriving import expect
 from app.desk.outside.pictured import free_layer_name, free_texture_name
 from app.desk.previews import OF_HEIGHTS, PAINTING, PHOTOSHOP, PICTURES
 from engine.checks.roles import REFERENCE
@@ -18,7 +19,6 @@ from engine.studio.requests import Do
 
 _FAR = -4  # a level at which little is left of a picture that lies on level 0
 _LARGEST = 1 << 24  # pixels of a picture that is extrapolated
-_SLOW = 1 << 24  # pixels of a picture that is seconds on its way to its layer
 
 
 def is_picture(path: Path) -> bool:
@@ -96,9 +96,7 @@ def lay(
     desk.post(Do(DefineTexture(texture, "image", Map(told))))
     name = free_layer_name(desk, stem)
     desk.post(Do(AddPicture(name, texture, level, at, laid.role)))
-    hint = f"Drag “{name}” where it belongs"
-    desk.say(f"Laying “{name}”.  {hint}" if size[0] * size[1] >= _SLOW else hint)
-    desk.hand.use("move")
+    expect(desk, name, f"Drag “{name}” where it belongs")
 
 
 def as_layer(desk: Desk, path: Path, place: Place, detail: float | None = None) -> None:

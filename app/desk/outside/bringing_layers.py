@@ -12,6 +12,7 @@ from immutables import Map
 from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
 from app.desk.notices import Notice
+from app.desk.outside.arriving import expect
 from app.desk.outside.bringing import picture_level
 from app.desk.outside.pictured import free_layer_name, free_stem, free_texture_name
 from app.desk.previews import PAINTING
@@ -126,8 +127,8 @@ def _lay_whole(desk: Desk, path: Path, found: _Whole, place: Place | None) -> No
     desk.post(Do(AddPainting(name, texture, _free(found.children, taken), level, at)))
     if found.notes:
         _tell(desk, path, found.notes)
-    desk.say(f"Drag “{name}” where it belongs" if place is not None else f"“{name}” lies where it does by itself")
-    desk.hand.use("move")
+    drag, still = f"Drag “{name}” where it belongs", f"“{name}” lies where it does by itself"
+    expect(desk, name, still if place is None else drag)
 
 
 def _free(nodes: tuple[NamedNode, ...], taken: set[str]) -> tuple[NamedNode, ...]:
@@ -153,8 +154,7 @@ def lay_layers(desk: Desk, path: Path, found: FoundLayers, sheet: ImageSource, p
     desk.post(Do(AddPictures(name, texture, _named(found.root, taken), level, at)))
     if found.notes:
         _tell(desk, path, found.notes)
-    desk.say(f"Drag “{name}” where it belongs")
-    desk.hand.use("move")
+    expect(desk, name, f"Drag “{name}” where it belongs")
 
 
 def _named(group: FoundGroup, taken: set[str]) -> tuple[Brought, ...]:
