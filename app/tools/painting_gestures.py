@@ -20,6 +20,7 @@ from app.desk.holding.size_lock import follow_view
 from app.desk.land.land_relief import seen_brush
 from app.desk.moving.painted_through import Aimed, through
 from app.input.events import ENDS, PenEvent
+from app.tools.coming_down import come_down
 from app.tools.gesture import Gesture
 from app.tools.mask_strokes import MaskBegun, begin_on_mask
 from app.trace import trace, trace_points
@@ -132,21 +133,22 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     desk.painting = True
     done = False
     try:
-        event = first
+        told = yield from come_down(first)
         while True:
-            if event.kind in ("down", "move"):
-                points = np.array([_point(desk.view, level, origin, event, first.time)])
-                begun.post(desk, snapper.add(smoother.add(points)))
-                _show_rope(desk, begun, smoother)
-            if event.kind in ENDS:
+            for event in told:
+                if event.kind in ("down", "move"):
+                    points = np.array([_point(desk.view, level, origin, event, first.time)])
+                    begun.post(desk, snapper.add(smoother.add(points)))
+                    _show_rope(desk, begun, smoother)
+            if told[-1].kind in ENDS:
                 break
-            event = yield
+            told = [(yield)]
         rest = snapper.add(smoother.finish())
         if straight and snapper.waits:
-            begun.post(desk, _from_last(desk, level, origin, first))
+            begun.post(desk, _from_last(desk, level, origin, told[0] if len(told) > 1 else first))
         begun.post(desk, np.concatenate([rest, snapper.finish()]))
         done = True
-        desk.guides.last = desk.view.to_canvas(event.x, event.y)
+        desk.guides.last = desk.view.to_canvas(told[-1].x, told[-1].y)
     finally:
         desk.painting, desk.hand_sight.brush_at = False, None
         begun.end(desk, done)

@@ -126,6 +126,43 @@ def test_with_shift_a_straight_line_leads_from_the_last_stroke_to_the_next(desk)
     assert first[:2] == pytest.approx(desk.view.to_canvas(110, 130).offset(begin.level, *begin.origin))
 
 
+def touch(x, y, pressure, kind="move"):
+    return PenEvent(kind, x, y, pressure, pen=True)
+
+
+def rows_of(posted):
+    return np.concatenate([one.points for one in posted if isinstance(one, Points)])
+
+
+def test_a_tap_of_the_pen_and_a_line_to_it_are_as_heavy_as_it_was_pressed(desk):
+    desk, posted = desk
+    desk.hand.stabiliser = 0.0
+    told = [touch(300, 200, 0.4), touch(300.5, 200.2, 0.8), touch(300, 200, 0.1), touch(300, 200, 0.0, "up")]
+    with pytest.raises(StopIteration):
+        events(paint(desk, touch(300, 200, 0.0, "down")), *told)
+    assert set(rows_of(posted)[:, 2]) == {0.8}
+    posted.clear()
+    desk.pointer.shift = True
+    with pytest.raises(StopIteration):
+        events(paint(desk, touch(400, 200, 0.0, "down")), touch(400, 200, 0.6), touch(400, 200, 0.0, "up"))
+    assert set(rows_of(posted)[:, 2]) == {0.6}
+
+
+def test_a_stroke_of_the_pen_begins_as_light_as_it_came_down(desk):
+    desk, posted = desk
+    desk.hand.stabiliser = 0.0
+    gesture = paint(desk, touch(300, 200, 0.1, "down"))
+    events(gesture, touch(300.4, 200, 0.3))
+    assert not any(isinstance(one, Points) for one in posted)
+    gesture.send(touch(304, 200, 0.5))
+    gesture.send(touch(310, 200, 0.7))
+    with pytest.raises(StopIteration):
+        gesture.send(touch(310, 200, 0.0, "up"))
+    pressures = rows_of(posted)[:, 2]
+    assert (pressures[0], pressures[-1]) == pytest.approx((0.1, 0.7))
+    assert (np.diff(pressures) > 0).all()
+
+
 def test_a_shape_has_the_copies_of_the_symmetry(desk):
     desk, posted = desk
     symmetry.choose(desk, "both")
