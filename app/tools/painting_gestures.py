@@ -18,7 +18,7 @@ from app.desk.guides.snapping import Snapper
 from app.desk.guides.tile_seams import tell_seams
 from app.desk.holding.size_lock import follow_view
 from app.desk.land.land_relief import seen_brush
-from app.desk.moving.painted_through import Aimed, through
+from app.desk.moving.painted_through import Aimed, Through, through
 from app.input.events import ENDS, PenEvent
 from app.tools.coming_down import come_down
 from app.tools.gesture import Gesture
@@ -27,6 +27,7 @@ from app.trace import trace, trace_points
 from engine.brush.settings import Brush
 from engine.brush.smoothing import Smoother
 from engine.brush.steadying import ON_ROPE
+from engine.numeric.similarity import IDENTITY
 from engine.painting.points import REACH
 from engine.studio.requests import Abandon, Begin, Finish, Points
 from engine.studio.textures.texture_requests import LabBegin, LabEnd, LabPoints, RegionBegin, RegionEnd, RegionPoints
@@ -96,10 +97,10 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
     if desk.selecting.masking:
         return begin_on_mask(desk, first)
     layer = desk.known.active
-    placed = layer is not None and layer.shows is not None and not desk.masks.on(layer)
-    aim = through(desk.known, layer, desk.view.shown_level) if layer is not None and placed else None
+    aim = _aim(desk)
     if isinstance(aim, str):
-        desk.say(aim, bad=True, offers=("source", "independent"), of=layer)
+        offers = "source", "select_none" if desk.selecting.selected else "independent"
+        desk.say(aim, bad=True, offers=offers, of=layer)
         return None
     if desk.known.hiding:
         desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
@@ -119,6 +120,18 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
     else:
         desk.post(Begin(aimed.level, aimed.origin, brush, aimed.layer, copies=aimed.copies(copies)))
     return Begun(level, origin, brush, aimed)
+
+
+def _aim(desk: Desk) -> Through | str | None:
+    """Returns how a stroke goes on what the active placement shows; why it cannot; None where no placement is active,
+    or its mask is painted on."""
+    layer = desk.known.active
+    if layer is None or layer.shows is None or desk.masks.on(layer):
+        return None
+    aim = through(desk.known, layer, desk.view.shown_level)
+    if isinstance(aim, Through) and desk.selecting.selected and aim.similarity != IDENTITY:
+        return f"Within a selection one paints on “{aim.layer}” itself, not on “{layer.name}”, which shows it"
+    return aim
 
 
 def paint(desk: Desk, first: PenEvent) -> Gesture:

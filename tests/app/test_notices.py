@@ -18,6 +18,7 @@ from engine.files.atomic import replacing
 from engine.files.fault import FileError
 from engine.numeric.address import Rect
 from engine.painting import commands as c
+from engine.painting.select_commands import Select, Whole
 from engine.session.session import Session
 from engine.studio import faults, results
 from engine.studio import requests as q
@@ -161,3 +162,17 @@ def test_why_nothing_can_be_painted_on_a_layer_is_told_while_it_is_so(screen):
     session.do(c.parse({"do": "undo"}))
     hear()
     assert screen.desk.message.text == ""
+
+
+@pytest.mark.parametrize(("at", "painted"), [([40, 0], False), ([0, 0], True)])
+def test_within_a_selection_one_paints_on_what_lies_elsewhere_at_its_source(screen, at, painted):
+    session = Session()
+    session.do(c.AddLayer("Leaves"))
+    session.do(c.parse({"do": "layer", "add": "Copy", "kind": "placement", "of": "Leaves", "at": at}))
+    screen.hear(replace(SCENE, layers=tuple(rows(session.painting.root)), active="Copy"))
+    assert begin_stroke(screen.desk, PenEvent("down", 5.0, 5.0)) is not None
+    screen.desk.selecting.choose(screen.desk.post, Select(Whole("all")))
+    assert (begin_stroke(screen.desk, PenEvent("down", 5.0, 5.0)) is not None) == painted
+    if not painted:
+        assert screen.desk.message.text.startswith("Within a selection one paints on “Leaves”")
+        assert screen.desk.message.offers == ("source", "select_none")
