@@ -23,7 +23,7 @@ from engine.texture.learnt.refinement import Learning, channels_of
 
 LOOKED_ABOUT = 8  # of the example's own pixels, around a place: what counts for what is shown below it
 _NEAR = 3  # pixels from which colours go on beyond the outline
-_ENOUGH = np.float32(0.5)
+_ENOUGH, _FAINT = np.float32(0.5), np.float32(1.0 / 64.0)
 _ONE, _ZERO, _QUARTER = np.float32(1.0), np.float32(0.0), np.float32(0.25)
 
 
@@ -92,9 +92,10 @@ def _outline(alpha: np.ndarray, at: Rect, octave: int, rect: Rect) -> np.ndarray
 @kernel
 def _centre(coarse: Array, out: Array) -> None:
     """Gives each four pixels of `out` (C, 2h, 2w) the mean of the one above them, in `coarse` (C, h + 2, w + 2), and
-    makes them as much less different from it as lets them stay within 0..1, colours below alpha, the last of four."""
+    makes them as much less different from it as lets them stay within 0..1, colours below alpha, the last of four;
+    where alpha changes by that, so do they."""
     channels, height, width = coarse.shape
-    four, most = np.empty(4, np.float32), np.ones(4, np.float32)
+    four, most, before = np.empty(4, np.float32), np.ones(4, np.float32), np.ones(4, np.float32)
     for y in range(height - 2):
         for x in range(width - 2):
             most[:] = _ONE
@@ -102,7 +103,12 @@ def _centre(coarse: Array, out: Array) -> None:
                 c = channels - 1 - n
                 block, mean = out[c, 2 * y : 2 * y + 2, 2 * x : 2 * x + 2], coarse[c, y + 1, x + 1]
                 four[0], four[1], four[2], four[3] = block[0, 0], block[0, 1], block[1, 0], block[1, 1]
-                _centre_four(four, mean, most, coarse[3, y + 1, x + 1] if channels == 4 else _ONE)
+                if channels == 4 and c == 3:
+                    before[:] = four
+                elif channels == 4:
+                    for k in range(4):
+                        four[k] *= most[k] / max(before[k], _FAINT)
+                _centre_four(four, mean, most, coarse[channels - 1, y + 1, x + 1])
                 block[0, 0], block[0, 1], block[1, 0], block[1, 1] = four[0], four[1], four[2], four[3]
                 if channels == 4 and c == 3:
                     most[:] = four
