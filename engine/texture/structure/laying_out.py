@@ -61,9 +61,10 @@ class Ground:
         return out
 
 
-def top_of(example: Size, size: Size) -> int:
-    """Tells at which scale a layout begins; -1 if the example is too small for any."""
-    top = _TOP
+def top_of(example: Size, size: Size, scales: int = _TOP) -> int:
+    """Tells at which scale a layout begins; -1 if the example is too small for any.  `scales`: those of the statistics
+    that are given after each size, fewer where they are mixed with those of a small picture."""
+    top = min(_TOP, scales)
     while top >= 0 and (min(halved_size(example, top)) < _NARROWEST or min(halved_size(size, top)) < _SIDE):
         top -= 1
     return top
@@ -72,7 +73,7 @@ def top_of(example: Size, size: Size) -> int:
 def laid_out(picture: np.ndarray, wanted: Joint, size: Size, seed: int, finest: int) -> Iterator[Progressed]:
     """Yields the steps to planes (R, h, w) of the grid of scale `finest`, or of the coarsest that there is room for, of
     a texture of a size, laid out as an example (C, h, w); `wanted`: its statistics, or others of the same axes."""
-    top = top_of((picture.shape[1], picture.shape[2]), size)
+    top = top_of((picture.shape[1], picture.shape[2]), size, len(wanted.scales))
     grounds = yield from _grounds(picture, wanted, max(top, 0))
     planes, source = yield from _begun(grounds[top], wanted, halved_size(size, top), seed, top)
     yield Progressed(0.5, planes)

@@ -32,7 +32,7 @@ def structured(picture: np.ndarray, wanted: Joint, structure: str, size: Size, s
         yield Progressed(1.0, np.zeros((0, *size), np.float32))
         return
     finest, sweeps = STRUCTURES[structure]
-    top = top_of((picture.shape[1], picture.shape[2]), size)
+    top = top_of((picture.shape[1], picture.shape[2]), size, len(wanted.scales))
     if finest is None or top < 0:
         yield from synthesised(wanted, size, seed)
         return

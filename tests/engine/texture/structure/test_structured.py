@@ -109,3 +109,15 @@ def test_statistics_between_two_begin_with_the_first_and_end_with_the_other():
     half = joint_between(first, second, 0.5)
     assert np.allclose(half.scales[0].together, (first.scales[0].together + second.scales[0].together) / 2)
     assert made(one, "objects", wanted=half).mean() == pytest.approx((one.mean() + other.mean()) / 2, abs=0.03)
+
+
+@pytest.mark.parametrize("small", [(8, 8), (1, 50)])
+def test_a_layout_goes_with_statistics_between_it_and_a_small_picture(small):
+    one = pebbles(3, (64, 64))
+    other = np.ascontiguousarray(pebbles(3)[:, : small[0], : small[1]])
+    first = joint_of(one)
+    half = joint_between(first, joint_of(other, first.axes), 0.5)
+    assert len(half.scales) < len(first.scales)
+    texture = made(one, "objects", wanted=half)
+    assert np.isfinite(texture).all()
+    assert texture.mean() == pytest.approx((one.mean() + other.mean()) / 2, abs=0.1)
