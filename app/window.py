@@ -49,6 +49,7 @@ from app.input.pointers import Pointers
 from app.input.window_box import box_of_window, kept_window_file
 from app.land.land_screen import LandScreen
 from app.land.land_wants import LandWants
+from app.language.wide_fonts import load_language_names
 from app.news import News
 from app.pace import Pace
 from app.panels.controls.folds import keep_folds_in
@@ -133,10 +134,10 @@ class Window:
         io.set_ini_filename("")
         io.config_flags |= imgui.ConfigFlags_.no_mouse_cursor_change
         io.mouse_double_click_time, io.mouse_single_click_delay = DOUBLE, 1.1 * DOUBLE
-        scale = _screen_scale(handle)
         theme.load_fonts(io)
+        load_language_names()
         preferences = read_preferences(preferences_file())[0]  # the engine tells what is wrong with them
-        self._look = _look(scale, preferences)
+        self._look = _look(_screen_scale(handle), preferences)
         spoken(*SpeakLanguage(preferences.language).carry_out())  # before anything is drawn
         width, height = glfw.get_framebuffer_size(handle)
         self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, self._look[0])

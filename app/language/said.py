@@ -15,6 +15,11 @@ def text_unformatted(text: str) -> None:
     imgui.text_unformatted(say(text))
 
 
+def own_text(text: str) -> None:
+    """Draws a text that is the artist's own, as it is."""
+    imgui.text_unformatted(text)
+
+
 def text_disabled(text: str) -> None:
     """Draws a quiet text."""
     imgui.text_disabled(say(text))

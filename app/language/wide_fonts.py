@@ -55,6 +55,13 @@ def load_wide_font(code: str, font: Path | None) -> bool:
     return True
 
 
+def load_language_names() -> None:
+    """Has the window's font show what languages call themselves, whichever it speaks."""
+    told = imgui.ImFontConfig()
+    told.merge_mode = True
+    imgui.get_io().fonts.add_font_from_file_ttf(str(CATALOGUES / "NotoSansCJK-names.otf"), _SIZE, told)
+
+
 def _found(names: tuple[str, ...]) -> Path | None:
     """Returns the first of some files that is among the system's fonts."""
     there = {path.name: path for path in _files() if path.name in names}

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 CATALOGUES = Path(__file__).resolve().parents[2] / "palettes" / "languages"
-LANGUAGES = {"en": "English", "de": "Deutsch", "fr": "Français", "ja": "Nihongo", "zh_CN": "Zhongwen"}
+LANGUAGES = {"en": "English", "de": "Deutsch", "fr": "Français", "ja": "日本語", "zh_CN": "中文"}
 _MOST = 20_000  # texts that are remembered
 _PLACE = re.compile(r"\{(\w+)\}")
 _EDGES = re.compile(r"([\s\ue000-\uf8ff+]*)(.*?)(\s*)", re.DOTALL)  # signs before a text, and what is empty

@@ -53,11 +53,13 @@ def choose(desk: Desk, entry: Entry) -> None:
 
 
 def take_example(desk: Desk) -> None:
-    """The brush gets the chosen example with its settings, the painting with the first stroke; without one, the palette
-    opens."""
+    """The brush gets the chosen example with its settings, the painting with the first stroke; without one, the first
+    of the palette, which opens."""
     state, entry = desk.examples, desk.examples.entry
     if entry is None:
         desk.strip, desk.panels, state.tab = "examples", True, "palette"
+        if state.listed():
+            choose(desk, state.listed()[0])
         return
     name, needs = state.needs(entry)
     others = (need for need in desk.hand.needs if need.name != name)

@@ -72,6 +72,7 @@ class _Added(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class _Add(FileWork):
     path: Path
+    shown: bool
 
     def carry_out(self) -> _Added:
         name, smaller = own_example_files.add(self.path)
@@ -81,7 +82,8 @@ class _Add(FileWork):
 
     def arrive(self, desk: Desk, found: _Added) -> None:
         relist(desk, found.listing)
-        desk.examples.opening = found.region.ident
+        if self.shown:
+            desk.examples.opening = found.region.ident
         desk.post(found.region)
         if found.pixels[..., 3].min() == 255:  # no holes tell what of it is meant
             desk.examples.finding = FindingState.of(found.region.ident, found.pixels, fresh=True)
@@ -90,10 +92,11 @@ class _Add(FileWork):
         desk.say(f"Added the example “{_title(desk)}”{size}")
 
 
-def add(desk: Desk, path: Path) -> None:
-    """A picture becomes an example of the artist's own, whose region is found, or is to be painted."""
+def add(desk: Desk, path: Path, shown: bool = True) -> None:
+    """A picture becomes an example of the artist's own, whose region is found, or is to be painted; `shown`: the page
+    of the region comes up then."""
     desk.say(f"Adding {path.name}")
-    desk.work(_Add(path))
+    desk.work(_Add(path, shown))
 
 
 # --- the region ------------------------------------------------------------------------------------------------------

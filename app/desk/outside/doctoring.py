@@ -52,8 +52,8 @@ def _take(desk: Desk, path: Path, way: str) -> None:
         desk.strip, desk.panels = "match", True
         desk.match.use(desk.post, "ink", free_texture_name(desk, path.stem))
     elif way == "grown":
-        desk.strip, desk.panels = "examples", True
-        example_work.add(desk, path)
+        desk.strip, desk.panels, desk.examples.tab = "examples", True, "palette"
+        example_work.add(desk, path, shown=False)
     else:
         name = free_texture_name(desk, path.stem)
         maker = "image" if way == "paper" else "impulse"

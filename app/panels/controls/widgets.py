@@ -174,23 +174,21 @@ def _switch(at: ImVec2, wide: float, tall: float, on: bool, over: bool) -> None:
 
 
 def slider(
-    label: str, value: float, bounds: tuple[float, float], hint: str, *, form: str = "%.2f", curved: bool = False
+    label: str,
+    value: float,
+    bounds: tuple[float, float],
+    hint: str,
+    *,
+    form: str = "%.2f",
+    curved: bool = False,
+    own: bool = False,
 ) -> tuple[bool, float]:
-    """Returns a bar filled up to its value, name on the left, number on the right; Ctrl+click to type.  (changed,
-    value)"""
+    """Returns a bar filled up to its value, name on the left, number on the right; Ctrl+click to type.  `own`: the name
+    is the artist's, in no language of the window's.  (changed, value)"""
     width, height = imgui.get_content_region_avail().x, imgui.get_frame_height()
     corner, lo, hi = imgui.get_cursor_screen_pos(), *bounds
-    end = ImVec2(corner.x + width, corner.y + height)
-    part = _part(value, lo, hi, curved)
-    painter, rounding = imgui.get_window_draw_list(), imgui.get_style().frame_rounding
-    hovered = imgui.is_mouse_hovering_rect(corner, end) and imgui.is_window_hovered()
-    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), rounding)
-    if part > 0.004:
-        fill = ImVec2(corner.x + max(rounding, width * part), end.y)
-        shade = theme.look.filled_lit if hovered else theme.look.filled
-        painter.add_rect_filled(corner, fill, theme.packed(shade), rounding)
-        wide = 2.0 * imgui.get_style().font_scale_dpi
-        painter.add_rect_filled(ImVec2(fill.x - wide, corner.y), fill, theme.packed(theme.look.grab), wide / 2)
+    end, painter = ImVec2(corner.x + width, corner.y + height), imgui.get_window_draw_list()
+    _filled_part(corner, end, _part(value, lo, hi, curved))
     typing = imgui.internal.temp_input_is_active(imgui.get_id(f"##{label}"))
     _hidden_frame(True, typing)
     imgui.set_next_item_width(width)
@@ -205,11 +203,24 @@ def slider(
         pad = imgui.get_style().frame_padding
         text = told_number(form, value)
         at = ImVec2(end.x - pad.x - said.calc_text_size(text).x, corner.y + pad.y)
-        name = ended(say(label.split("##")[0]), at.x - corner.x - 1.5 * pad.x)
+        name = ended(label if own else say(label.split("##")[0]), at.x - corner.x - 1.5 * pad.x)
         painter.add_text(ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed(theme.look.soft), name)
         said.add_text(painter, at, theme.packed(theme.look.text), text)
     tooltip(hint)
     return changed, max(lo, min(hi, value)) if changed else value
+
+
+def _filled_part(corner: ImVec2, end: ImVec2, part: float) -> None:
+    """Draws a slider's bar, filled up to a part of it."""
+    painter, rounding = imgui.get_window_draw_list(), imgui.get_style().frame_rounding
+    painter.add_rect_filled(corner, end, theme.packed(theme.look.field), rounding)
+    if part > 0.004:
+        fill = ImVec2(corner.x + max(rounding, (end.x - corner.x) * part), end.y)
+        hovered = imgui.is_mouse_hovering_rect(corner, end) and imgui.is_window_hovered()
+        shade = theme.look.filled_lit if hovered else theme.look.filled
+        painter.add_rect_filled(corner, fill, theme.packed(shade), rounding)
+        wide = 2.0 * imgui.get_style().font_scale_dpi
+        painter.add_rect_filled(ImVec2(fill.x - wide, corner.y), fill, theme.packed(theme.look.grab), wide / 2)
 
 
 def told_number(form: str, value: float) -> str:

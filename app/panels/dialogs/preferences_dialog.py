@@ -71,7 +71,7 @@ class PreferencesDialog:
             keep_preferences(desk, desk.preferred.now)
         closes = w.default_button("Close", "All of it is kept", width=em * 7)
         imgui.same_line()
-        if w.text_button("Reset this page", "As they come", width=em * 9):
+        if _OF_PAGES.get(self._page) and w.text_button("Reset this page", "As they come", width=em * 9):
             usual = Preferences()
             prefer(desk, **{name: getattr(usual, name) for name in _OF_PAGES[self._page]})
         return not closes and desk.asked.dialog not in _MEMBERS

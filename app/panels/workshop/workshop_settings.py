@@ -45,11 +45,12 @@ def _setting(desk: Desk, row: Setting) -> None:
             state.values = state.values.set(name, to_hex(picked) + value[7:])
         imgui.same_line()
         imgui.align_text_to_frame_padding()
-        said.text_unformatted(name)
+        said.own_text(name)
         return
     whole = step > 0.0 and step == int(step) and least == int(least)
     form = "%.0f" if whole else ("%.1f" if most - least >= 50.0 else "%.2f")
-    changed, value = w.slider(name, float(value), (least, most), "A number that the text lets be set", form=form)
+    hint = "A number that the text lets be set"
+    changed, value = w.slider(name, float(value), (least, most), hint, form=form, own=True)
     if changed:
         moved = least + round((value - least) / step) * step if step > 0.0 else round(value, 4)
         state.values = state.values.set(name, max(least, min(most, moved)))

@@ -100,10 +100,14 @@ def test_a_kept_brush_with_an_example_fits_what_is_seen(desk):
     assert (desk.hand.brush.example_level, desk.hand.brush.example_detail, desk.hand.brush.depth) == (20, 1, 2.0)
 
 
-def test_growing_without_an_example_opens_the_palette(desk):
-    desk.strip = ""
+def test_growing_without_an_example_opens_the_palette_and_takes_its_first(desk):
+    desk.strip, desk.examples.tab = "", "settings"
     example_use.take_example(desk)
-    assert desk.strip == "examples"
+    assert (desk.strip, desk.examples.tab) == ("examples", "palette")
+    assert (desk.hand.brush.mode, desk.examples.entry) == ("example", desk.examples.listed()[0])
+    desk.examples.entries = ()
+    desk.hand.take(Brush())
+    example_use.take_example(desk)
     assert desk.hand.brush.mode == "paint"
 
 

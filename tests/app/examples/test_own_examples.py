@@ -30,8 +30,9 @@ def test_a_dropped_picture_is_an_example_and_its_region_is_opened(desk, own, tmp
     assert state.region.scene.inside[:, :20].all()
     assert not state.region.scene.inside[:, 20:].any()
     assert desk.hand.brush.example == "My rock"
-    example_work.add(desk, tmp_path / "My rock.png")
-    assert state.entry.name == "My rock 2"
+    state.tab = "palette"
+    example_work.add(desk, tmp_path / "My rock.png", shown=False)
+    assert (state.entry.name, state.tab) == ("My rock 2", "palette")
     desk.strip = ""
     assert not example_work.dropped(desk, tmp_path / "My rock.png")
 

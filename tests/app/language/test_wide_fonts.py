@@ -5,7 +5,7 @@ import pytest
 import texts
 from app.desk.preferring.speaking import SpeakLanguage
 from app.language import wide_fonts
-from app.language.words import read_catalogue
+from app.language.words import LANGUAGES, read_catalogue
 
 WIDE = ("ja", "zh_CN")
 
@@ -21,6 +21,14 @@ def test_the_font_that_comes_along_has_all_letters_of_its_catalogue(code, monkey
     missing = bytes(font.getmask("\uffff"))
     for letter in set("".join(read_catalogue(code).values())):
         assert letter.isascii() or bytes(font.getmask(letter)) != missing or letter == " ", letter
+
+
+def test_each_language_is_called_as_it_calls_itself():
+    from PIL import ImageFont
+
+    font = ImageFont.truetype(str(texts.CATALOGUES / "NotoSansCJK-names.otf"), 20)
+    for name in LANGUAGES.values():
+        assert name[0].isascii() or all(font.getmask(letter).getbbox() for letter in name), name
 
 
 def test_one_of_the_system_s_comes_first(tmp_path, monkeypatch):
