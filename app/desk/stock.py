@@ -11,6 +11,7 @@ from app.desk.examples import example_state
 from app.desk.examples.example_state import Entry
 from app.desk.examples.example_use import gather
 from app.desk.holding.desk_record import KeptDesk
+from app.desk.holding.generator_brushes import generator_brushes
 from app.desk.holding.kept_desk import kept_file, read_kept, restore
 from app.desk.holding.palette_shelf import load_palettes, palettes_folder
 from app.desk.holding.written_brushes import written_brushes
@@ -52,7 +53,7 @@ class TakeStock(FileWork):
         desk_kept, fault = read_kept(kept_file())
         palettes, worse = load_palettes(palettes_folder())
         told = (*faults, *more, *torn, *bad, *lost, *worse, *([fault] if fault else ()), *self.windows_faults)
-        brushes, found = (*bundled, *written_brushes(), *own), found_again(self.window)
+        brushes, found = (*bundled, *generator_brushes(), *written_brushes(), *own), found_again(self.window)
         return Stock(brushes, tuple(papers), tuple(examples), desk_kept, tuple(palettes), found, told)
 
     def arrive(self, desk: Desk, found: Stock) -> None:

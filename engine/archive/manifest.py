@@ -41,6 +41,7 @@ from engine.painting.recording import SIDE_LIMIT, read_grid, read_paper
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
 from engine.texture.example import SYNTHESIS
+from engine.texture.expression.placing.generated import Generated
 from engine.texture.image import ImageSource
 from engine.texture.placed import PlacedInk
 from engine.texture.record import pictures_of
@@ -186,15 +187,14 @@ def manifest_json(
 
 def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
-    roles = any(written_role(node) for node in layers.walk(painting.root))
-    chosen = painting.selection is not None or painting.selections
-    clipped = any(node.clip for node in layers.walk(painting.root))
+    roles = any(written_role(node) or node.clip for node in layers.walk(painting.root))
+    chosen = painting.selection is not None or painting.selections or painting.guides or painting.touches
     wrapped = any(layer.wrap is not None or layer.heaps for layer in layers.layers(painting.root))
     masked = any(True for _ in selection_files.masks_of(painting.root))
     inks = held_inks(painting.root)
-    learnt = any(len(pictures_of(ink)) > 1 for ink in inks) or plot_files.controlled(painting)
-    beside = painting.guides or painting.touches or painting.paper is not None
-    if any((roles, clipped, wrapped, masked, chosen, learnt, beside)):
+    newer = any(isinstance(ink, Generated) or len(pictures_of(ink)) > 1 for ink in inks)
+    newer = newer or plot_files.controlled(painting)
+    if any((roles, wrapped, masked, chosen, newer, painting.paper is not None)):
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT

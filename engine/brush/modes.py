@@ -42,6 +42,11 @@ class Mode:
     heaps: str = ""
 
     @property
+    def places(self) -> bool:
+        """Tells whether its strokes place things, as a written texture tells."""
+        return self.name == "generate"
+
+    @property
     def grows(self) -> bool:
         """Tells whether its strokes are regions in which an example grows."""
         return not self.edit
@@ -89,6 +94,14 @@ MODES: dict[str, Mode] = {
             in_lab=True,
             section="operations",
             ground="colours",
+        ),
+        Mode(
+            "generate",
+            "Generate",
+            "Places trees, houses, stones… along the stroke, as its texture tells",
+            "engine.brush.generated_edit:Generating",
+            lays_ink=True,
+            unfelt=frozenset(("opacity", "flow", "density", "grain", "edge")),
         ),
         Mode(
             "example",

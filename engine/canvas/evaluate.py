@@ -21,6 +21,7 @@ from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
 
+_ALPHA = COLOURS - 1
 _CLOSE = 8  # levels above a rectangle that are gone through one by one
 _CLIMB = 3  # levels up to what is kept of a coarse level for all that lies below it
 _SQUARES = 6  # of these above one another: from there on what is kept is sparser (`from_afar`)
@@ -202,7 +203,8 @@ def _add_texture_band(
             continue
         detail = ink.bandpass(level, band)
         if detail is not None:
-            kernels.add_texture(out, amplitudes, plane, np.ascontiguousarray(detail, np.float32), first, unit)
+            onto = out[_ALPHA:] if getattr(ink, "on_alpha", False) else out  # whose other two planes are 0
+            kernels.add_texture(onto, amplitudes, plane, np.ascontiguousarray(detail, np.float32), first, unit)
 
 
 def _known(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:

@@ -153,7 +153,7 @@ def version_of(command: Command) -> int:
         return layer_version(command)
     newer = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto) or _lasts(command.brush))
     newer |= isinstance(command, Stroke) and (command.brush.height is not None or command.brush.impasto != 0.0)
-    newer |= isinstance(command, Stroke) and bool(command.brush.control)
+    newer |= isinstance(command, Stroke) and (bool(command.brush.control) or command.brush.row.places)
     newer |= isinstance(command, Stroke) and (feels(command.brush) or command.points.shape[1] > ALWAYS)
     newer |= isinstance(command, DefineTexture) and _newer(command.arguments)
     return 2 if region or newer or isinstance(command, _OF_VERSION_2) else 1

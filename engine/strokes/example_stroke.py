@@ -22,6 +22,7 @@ from engine.painting.commands import Swap
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.strokes.bed import Bed, Change
 from engine.strokes.example_textures import KIND, exemplar_of, key_of
+from engine.strokes.generated.generated_stroke import GeneratedStroke
 from engine.strokes.live_stroke import Drawn
 from engine.strokes.mask_painting import insist_on_paint
 from engine.strokes.paint_stroke import LiveStroke
@@ -145,8 +146,10 @@ Live = LiveStroke | LiveGrowth
 
 
 def kind_of(brush: Brush) -> type[Live]:
-    """Of the stroke that a brush makes: one that paints, or one that grows an example or erases what was grown at a
-    depth."""
+    """Of the stroke that a brush makes: one that paints, places things, or one that grows an example or erases what was
+    grown at a depth."""
+    if brush.row.places:
+        return GeneratedStroke
     grows = brush.row.grows or (brush.row.takes_away and brush.depth is not None)
     return LiveGrowth if grows else LiveStroke
 

@@ -48,6 +48,8 @@ def filled(painting: Painting, command: Fill, cache: TileCache | None = None) ->
     brush = command.brush
     edits.check(brush)
     base, layer = sheet_for(painting, command.layer, command.onto, "fill")
+    if brush.row.places:
+        raise Refusal("fill: found a brush that places things along a stroke, expected another: draw with it")
     grows = kind_of(brush) is not LiveStroke
     if grows:
         insist_on_paint(layer, "fill")

@@ -27,6 +27,7 @@ from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.functions import functions
 from engine.numeric.wave import UNIT
+from engine.texture.expression.placing.generated import Generated
 from engine.texture.expression.written_ink import Expression
 from engine.texture.gradient import Gradient
 from engine.texture.image import Cover, Image, picture_pyramid
@@ -103,8 +104,9 @@ def _gradient(made: Gradient, level: int, rect: Rect | None = None) -> Bound:
     return Bound(most, most, most)
 
 
-@bound.register
-def _written(made: Expression, level: int, rect: Rect | None = None) -> Bound | None:
+@bound.register(Expression)
+@bound.register(Generated)
+def _written(made: Expression | Generated, level: int, rect: Rect | None = None) -> Bound | None:
     return None  # whatever somebody wrote
 
 

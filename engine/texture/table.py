@@ -15,6 +15,7 @@ from engine.checks.values import described, is_within
 from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
 from engine.texture.expression.defined import expression, expression_of_key
+from engine.texture.expression.placing.generated import ALPHA_OF, COLOURS_OF, COVER_OF, generated_of_key
 from engine.texture.gradient import gradient, gradient_of_key
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.learnt.inks import REFINABLE, learnt
@@ -142,6 +143,7 @@ DEFINED: dict[str, Callable[..., Instance]] = {GRADIENT: gradient, EXPRESSION: e
 _OF_KEYS: dict[str, Callable[..., Instance]] = {
     **dict.fromkeys((GRADIENT, "gradient-cover"), gradient_of_key),
     **dict.fromkeys((EXPRESSION, "expression-cover"), expression_of_key),
+    **dict.fromkeys((COLOURS_OF, COVER_OF, ALPHA_OF), generated_of_key),
 }
 KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
 

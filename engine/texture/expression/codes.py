@@ -43,5 +43,5 @@ class Code:
 COST = dict.fromkeys(range(Code.PICTURE + 1), 0.5) | {
     Code.CONST: 0.0, Code.X: 0.1, Code.Y: 0.1, Code.DIV: 1.0, Code.SQRT: 1.0, Code.SIN: 8.0, Code.COS: 8.0,
     Code.TAN: 10.0, Code.ATAN2: 15.0, Code.EXP: 8.0, Code.LOG: 12.0, Code.POW: 40.0, Code.NOISE: 7.0,
-    Code.WHITE: 30.0, Code.CELLS: 150.0, Code.RAMP: 10.0, Code.RANDOM: 3.0, Code.PICTURE: 40.0,
+    Code.WHITE: 30.0, Code.CELLS: 150.0, Code.RAMP: 10.0, Code.RANDOM: 3.0, Code.PICTURE: 0.5,
 }  # fmt: skip

@@ -11,7 +11,8 @@ import numpy as np
 
 from engine.numeric.address import Rect
 from engine.texture.expression.language import read
-from engine.texture.expression.programs import Program, draw_program
+from engine.texture.expression.placing.placed_scene import drawn_plainly
+from engine.texture.expression.programs import Program
 from engine.texture.expression.written_ink import Expression, pixels, woven_program
 
 
@@ -51,7 +52,7 @@ def line_look(made: Expression, number: int, level: int) -> LineLook:
 def line_planes(made: Expression, number: int, level: int, rect: Rect) -> np.ndarray:
     """Returns what a line, counted from 0, is over a rectangle of a level: its numbers as they are within -1..2,
     float32 (1, h, w), or premultiplied colours (4, h, w)."""
-    return draw_program(_line(made, number, level), rect, pixels(made.period, level - made.level))
+    return drawn_plainly(_line(made, number, level), rect, pixels(made.period, level - made.level))
 
 
 def values_at(made: Expression, level: int, place: tuple[int, int]) -> tuple[tuple[float, ...], ...]:

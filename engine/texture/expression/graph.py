@@ -73,6 +73,7 @@ class Graph:
         self.operations: list[Operation] = []
         self._known: dict[tuple[object, ...], int] = {}
         self.x, self.y = self.node(Code.X), self.node(Code.Y)
+        self.ways = {self.x: (1.0, 0.0), self.y: (0.0, 1.0)}  # of what is told by place: how fast it rises
 
     def node(self, code: int, *parts: int, numbers: tuple[float, ...] = (), key: tuple[int, ...] = (), kind: int = 0,
              slope: int = 0) -> int:  # fmt: skip

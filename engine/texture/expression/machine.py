@@ -261,7 +261,7 @@ def run(
 ) -> None:  # fmt: skip
     """Adds the registers `shown`, a mean over the samples of each pixel, to out, float32 (channels, h, w).
 
-    `xs`, `ys`: places of the samples, as many along a pixel in each direction; `pictures`: float32 (n, ys, xs).
+    `xs`, `ys`: places of the samples, as many along a pixel in each direction; `pictures`: float64 (n, ys, xs).
     """
     side = ys.size // out.shape[1]
     part = 1.0 / (side * side)

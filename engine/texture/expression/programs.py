@@ -12,8 +12,8 @@ from engine.numeric.address import Rect
 from engine.texture.expression import machine
 from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph, Operation, needed_by
-from engine.texture.expression.language import Woven
 from engine.texture.expression.noise_rows import ROOM
+from engine.texture.expression.weaving import Woven
 
 WRAP = 65536  # periods, after which a texture begins anew
 _EXACT = 1 << 50  # samples that floats count
@@ -21,7 +21,8 @@ _EXACT = 1 << 50  # samples that floats count
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Program:
-    """What `machine.run` takes; `constants` fill the first registers; `side`: samples along a pixel."""
+    """What `machine.run` takes; `constants` fill the first registers; `side`: samples along a pixel; `whole`, `takes`:
+    as `Woven` has them."""
 
     steps: np.ndarray
     numbers: np.ndarray
@@ -31,6 +32,8 @@ class Program:
     shown: np.ndarray
     side: int
     cost: float
+    whole: object | None = None
+    takes: tuple[int, ...] = ()
 
     @property
     def channels(self) -> int:
@@ -43,14 +46,14 @@ class Program:
         registers = np.zeros((self.registers, machine.LENGTH))
         registers[: self.constants.size] = self.constants[:, None]
         if pictures is None:
-            pictures = np.zeros((1, ys.size, xs.size), np.float32) if _looks(self.steps) else _NONE
+            pictures = np.zeros((1, ys.size, xs.size)) if _looks(self.steps) else _NONE
         room = np.empty((5, ROOM, machine.LENGTH))
         machine.run(self.steps, self.numbers, self.keys, xs, ys, self.shown, pictures, registers, room, out)
         return out
 
 
 _COLUMNS = 12
-_NONE = np.zeros((1, 1, 1), np.float32)
+_NONE = np.zeros((1, 1, 1))
 
 
 def _looks(steps: np.ndarray) -> bool:
@@ -95,6 +98,7 @@ def program(woven: Woven, side: int) -> Program:
     return Program(
         np.array(steps, np.int32).reshape(-1, _COLUMNS), np.array([*numbers, 0.0]), np.array([*keys, 0], np.uint32),
         constants, max(count, 1), np.array([rows[node] for node in shown], np.int32), side, woven.cost,
+        woven.whole, woven.takes,
     )  # fmt: skip
 
 

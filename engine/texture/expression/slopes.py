@@ -114,7 +114,7 @@ class Slopes:
         graph, known = self._graph, self._known[axis]
         if target not in known:
             flat = graph.constant(0.0)
-            known.update({graph.x: graph.constant(1.0 - axis), graph.y: graph.constant(float(axis))})
+            known.update({node: graph.constant(float(way[axis])) for node, way in graph.ways.items()})
             for node in needed_by(graph, [target], known):
                 told = graph.operations[node]
                 rule = _RULES.get(told.code)

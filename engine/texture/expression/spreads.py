@@ -58,7 +58,7 @@ class Spreads:
 
     def __init__(self, graph: Graph, width: float) -> None:
         even = Spread(width * _EVEN, 0.0)
-        self._graph, self.told = graph, {graph.x: even, graph.y: even}
+        self._graph, self.told = graph, dict.fromkeys(graph.ways, even)
 
     def of(self, target: int) -> Spread:
         """Returns the spread of a node."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import NoReturn
+from typing import NoReturn, Protocol
 
 from engine.numeric.formula import CONSTANTS
 from engine.numeric.reader import quoted
@@ -20,7 +20,7 @@ from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph, TooLarge
 from engine.texture.expression.slopes import Slopes
 from engine.texture.expression.spreads import Spreads
-from engine.texture.expression.written import PICK, PRESSURE, SLIDER, Term, WrittenError, WrittenText
+from engine.texture.expression.written import PICK, PRESSURE, SLIDER, STROKE_NAMES, Term, WrittenError, WrittenText
 
 NESTED_MOST = 160  # parts within one another, lines that others refer to counted in
 POINT_SIDE, JUMP_SIDE = 2, 4  # samples along a pixel where a mean is not exact, and where it jumps
@@ -80,18 +80,51 @@ class Setting:
 Rule = Callable[["Weaver", Term, Env], Value]
 
 
+class PlacedWords(Protocol):
+    """What else the text of a weaver may ask for, as told by where its things stand."""
+
+    def enter(self, graph: Graph) -> None:
+        """Makes the graph's places those of a thing."""
+        ...
+
+    def cell(self, graph: Graph) -> tuple[int, int]:
+        """Returns the nodes of the thing's numbers."""
+        ...
+
+    def named(self, weaver: Weaver, term: Term) -> int:
+        """Returns the node of something that the stroke tells."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Woven:
+    """What a text, or one of its lines, is at a level: `value`, the nodes of `graph` that are shown, and the samples
+    along a pixel; `cost`: nanoseconds a pixel, about; `whole`, `takes`: what holds the things that are placed, and the
+    pictures that they come as."""
+
+    graph: Graph
+    value: Value
+    cost: float
+    whole: object | None = None
+    takes: tuple[int, ...] = ()
+
+
 class Weaver:
     """Asks for the parts of one text; remembers what it was asked for."""
 
-    def __init__(self, written: WrittenText, setting: Setting, rules: Mapping[str, Rule]) -> None:
-        self.written, self.setting, self.rules = written, setting, rules
+    def __init__(
+        self, written: WrittenText, setting: Setting, rules: Mapping[str, Rule], scene: PlacedWords | None = None
+    ) -> None:
+        self.written, self.setting, self.rules, self.scene = written, setting, rules, scene
         self.graph = Graph()
+        if scene is not None:
+            scene.enter(self.graph)
         self.slopes, self.spreads = Slopes(self.graph), Spreads(self.graph, setting.width)
         self._lines = {line.name: n for n, line in enumerate(written.lines)}
         self._known: dict[tuple[int, Env], Value] = {}
         self.deep = 0
         zero = self.graph.constant(0.0)
-        self.here = Env(self.graph.x, self.graph.y, (zero, zero))
+        self.here = Env(self.graph.x, self.graph.y, (zero, zero) if scene is None else scene.cell(self.graph))
 
     def line(self, number: int, env: Env) -> Value:
         """Returns what a line of the text comes to."""
@@ -213,7 +246,7 @@ def woven_within(weaver: Weaver, written: WrittenText) -> Weaver:
     """Returns one that asks for the parts of another text, in this one's graph, its sliders as they usually are."""
     other = Weaver(written, replace(weaver.setting, values={}), weaver.rules)
     other.graph, other.slopes, other.spreads = weaver.graph, weaver.slopes, weaver.spreads
-    other.here, other.deep = weaver.here, weaver.deep
+    other.here, other.deep, other.scene = weaver.here, weaver.deep, weaver.scene
     return other
 
 
@@ -221,7 +254,7 @@ def last_line(weaver: Weaver, env: Env, number: int = -1) -> Value:
     """Returns what a line, usually the last one, is at a place; those before it first, that none is reached through
     all of them."""
     number %= len(weaver.written.lines)
-    for before in range(number):
+    for before in range(0 if weaver.written.places else number):
         weaver.line(before, env)
         weaver.line(before, env.point)
     return weaver.line(number, env)
@@ -258,6 +291,8 @@ def _name(weaver: Weaver, term: Term, env: Env) -> Value:
         pressure = setting.values.get(PRESSURE, 1.0)
         assert not isinstance(pressure, str)
         return Value((weaver.graph.constant(pressure),))
+    if term.told in STROKE_NAMES and weaver.scene is not None:
+        return Value((weaver.scene.named(weaver, term),))
     told = {"fw": setting.width, "level": float(setting.level), "seed": float(setting.seed % (1 << 24))}
     return Value((weaver.graph.constant(told[term.told]),))
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
@@ -20,7 +20,17 @@ from engine.numeric.reader import ARITHMETIC_SIGNS, NUMBER, Reader, Token, Words
 
 CHARACTERS_MOST, LINES_MOST, PARTS_MOST, DEPTH_MOST = 16_384, 64, 2_000, 40
 PRESSURE = "pressure"
+STROKE_NAMES = {
+    "along": "how far along its stroke a place lies",
+    "across": "how far to the right of its stroke a place lies, seen along it",
+    "heading": "which way the stroke runs there, in radians, clockwise from rightwards",
+    "size": "how thick the stroke is there, 1 being its brush",
+}
+PLACERS = ("scatter", "row")
+OUTER_WORD = "outer"
+_YIELDING = (*STROKE_NAMES, *PLACERS, OUTER_WORD)  # words that a line may have for its name, as those of old texts do
 PLACE_NAMES = {
+    **STROKE_NAMES,
     "x": "the place, in periods from the left",
     "y": "the place, in periods from the top",
     "fw": "the width of a pixel, in periods",
@@ -93,13 +103,26 @@ class WrittenText:
     @property
     def presses(self) -> bool:
         """Tells whether any line looks at the pressure."""
+        return any(term.told == PRESSURE for term in self._terms())
+
+    @property
+    def places(self) -> bool:
+        """Tells whether any line places things."""
+        return any(term.operation in PLACERS for term in self._terms())
+
+    @property
+    def follows(self) -> bool:
+        """Tells whether it is made for a stroke: places things, or goes by where the stroke runs."""
+        own = {line.name for line in self.lines}
+        told = STROKE_NAMES.keys() - own
+        return any(term.operation in (*PLACERS, OUTER_WORD) or term.told in told for term in self._terms())
+
+    def _terms(self) -> Iterator[Term]:
         open_ = [line.term for line in self.lines]
         while open_:
             term = open_.pop()
-            if term.told == PRESSURE:
-                return True
+            yield term
             open_.extend(term.parts)
-        return False
 
     def place(self, at: int) -> tuple[int, int]:
         """Returns the line and the column, from 1, of a character of the text."""
@@ -187,7 +210,8 @@ class _Text(Reader[Term]):
         _only_there(self, term, slider)
         if name:
             self._own[name] = ""
-            self.words = replace(self.words, names=self._own)
+            functions = {word: row for word, row in self.words.functions.items() if word != name}
+            self.words = replace(self.words, names=self._own, functions=functions)
         return TextLine(name, term, start.at, slider)
 
     def _is_name(self) -> bool:
@@ -195,6 +219,10 @@ class _Text(Reader[Term]):
         token = self.now
         if token.kind != "name" or self._tokens[self._at + 1].text != "=":
             return False
+        if token.text in _YIELDING and self._own.get(token.text):
+            self._own.pop(token.text)
+        elif token.text in _YIELDING and token.text not in self._own:
+            return True
         if token.text in self.words.functions or token.text in self.words.constants or token.text in ("if", "else"):
             self.refuse("a name of your own: this one has a meaning", token)
         if token.text in self._own:

@@ -15,9 +15,10 @@ import numpy as np
 
 from engine.numeric.address import TILE, Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
-from engine.texture.expression.language import Woven, read, weave
-from engine.texture.expression.programs import Program, draw_program, program
-from engine.texture.expression.weaving import Setting
+from engine.texture.expression.language import read, weave
+from engine.texture.expression.placing.placed_scene import drawn_plainly
+from engine.texture.expression.programs import Program, program
+from engine.texture.expression.weaving import Setting, Woven
 from engine.texture.expression.written import PRESSURE
 
 STAGES = 5  # pressures from 0 to 1, between which is mixed
@@ -120,7 +121,7 @@ def _shown_on(
     text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, rect: Rect
 ) -> np.ndarray:
     made = _program(text, values, seed, finer, period)
-    out = draw_program(made, rect, pixels(period, finer))
+    out = drawn_plainly(made, rect, pixels(period, finer))
     if made.channels == 1:
         out *= np.float32(2.0)
         out -= np.float32(1.0)

@@ -157,6 +157,9 @@ def _brushes() -> Iterator[tuple[str, list[Any]]]:
         yield f"edge {name}", [stroke(edge={"curve": name, "width": 0.7, "colour": "#102040"})]
     for name in ("erase", "smooth"):
         yield f"mode {name}", [GROUND, stroke(mode=name, ink=[ink("rock")])]
+    trees = "row(scatter(fade(#408030, fill(circle(x, y, 0.9))), 4, 0.3, distance(x, y) < 0.6, 90*random(1)), 1, size)"
+    placed = {"mode": "generate", "radius": 17, "ink": [ink("trees")]}
+    yield "mode generate", [GROUND, texture("expression", "trees", text=trees), stroke(**placed)]
     yield "dynamics", [stroke(dynamics={"radius": "pressure", "flow": [[0, 0.3], [0.7, 0.9]]})]
 
 

@@ -15,6 +15,7 @@ from types import MappingProxyType
 from engine.texture.expression.written import close_to
 
 _TEXTS = Path(__file__).resolve().parents[4] / "palettes" / "written"
+_GENERATORS = _TEXTS.with_name("generators")
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,12 @@ class LibraryText:
 def written_library() -> Mapping[str, LibraryText]:
     """Returns all texts that come along, by name."""
     return MappingProxyType({path.stem: library_text(path) for path in sorted(_TEXTS.glob("*.txt"))})
+
+
+@lru_cache(maxsize=1)
+def generator_library() -> Mapping[str, LibraryText]:
+    """Returns all texts that come along and place things along a stroke, by name."""
+    return MappingProxyType({path.stem: library_text(path) for path in sorted(_GENERATORS.glob("*.txt"))})
 
 
 def like_in_library(name: str) -> str:
