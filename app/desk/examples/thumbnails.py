@@ -16,7 +16,6 @@ from app.desk.examples import own_example_files
 from app.desk.examples.charts import chart_of
 from app.desk.examples.example_state import Entry
 from engine.files.fault import FileError
-from engine.files.images import read_image
 from engine.studio.results import Picture
 
 PAPER = (214, 209, 200)  # sRGB
@@ -92,6 +91,8 @@ def _seen(entry: Entry, side: int) -> Picture:
 
 def _map_seen(path: str) -> Picture:
     """Returns the picture of a map as dark and light as it tells."""
+    from engine.files.images import read_image  # on the thread: it loads what compiles
+
     pixels, _ = read_image(path)
     full = int(np.iinfo(pixels.dtype).max)
     out = np.full(pixels.shape, 255, np.uint8)

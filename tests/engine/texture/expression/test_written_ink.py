@@ -13,7 +13,7 @@ from engine.painting.textures import Texture
 from engine.texture import table
 from engine.texture.expression import written_ink
 from engine.texture.expression.defined import anew, expression
-from engine.texture.expression.programs import draw_program
+from engine.texture.expression.placing.placed_scene import drawn_plainly
 from engine.texture.record import Instance
 
 TEXTS = {
@@ -51,9 +51,9 @@ def test_a_square_is_drawn_once_and_kept_unchanged(monkeypatch):
 
     def counted(made, rect, *about):
         drawn.append(rect)
-        return draw_program(made, rect, *about)
+        return drawn_plainly(made, rect, *about)
 
-    monkeypatch.setattr(written_ink, "draw_program", counted)
+    monkeypatch.setattr(written_ink, "drawn_plainly", counted)
     made = expression({"text": "noise(x*3, y*3) + 0.125"}, 0)
     first = made.appearance(0, Rect.at(-30, 5, 158, 128))
     before, count = first.copy(), len(drawn)
