@@ -14,6 +14,9 @@ WAVE = [(380 + 12 * i, 400 + (30 if i % 8 < 4 else -30)) for i in range(24)]
 def test_a_formula_written_in_the_panel_changes_paint_and_lays_none(program):
     app = program()
     empty = app.canvas()
+    below, shown = app.box("group")[3], app.boxes()
+    listed = [box for (window, _), box in shown.items() if window == "brushes" and box[1] > below]
+    assert len(listed) >= 8, sorted(shown)  # at 1280 x 800, wholly or in part
     app.keys(*["bracketright"] * 12)
     app.stroke((380, 360), (800, 360))
     painted = app.canvas_unlike(empty)

@@ -15,7 +15,7 @@ from app.panels.brush.preset_tile import draw_tile, tall_of
 from app.panels.controls import widgets as w
 from engine.studio.requests import Prepare, Swatch
 
-ACROSS, TILE_WIDE = 2, 100  # in the panel: at least, and the least width of each where there are more, points
+ACROSS, TILE_WIDE = 3, 100  # in the panel: at least, and the least width of each where there are more, points
 ACROSS_ALL = 8  # of all at once, at most
 LABELS = 94  # width of the names of groups beside all of them, points
 EVERY = ""  # the group of all
@@ -55,7 +55,7 @@ class BrushList:
         room = imgui.get_content_region_avail().x - 12 * desk.scale
         across = max(ACROSS, int((room + gap) / (TILE_WIDE * desk.scale + gap)))
         wide = (room - gap * (across - 1)) / across
-        low = 1.6 * tall_of(desk, wide)  # where there is less room, all of it scrolls
+        low = 2.2 * tall_of(desk, wide)  # where there is less room, all of it scrolls
         imgui.begin_child("presets", ImVec2(0, max(imgui.get_content_region_avail().y, low)))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         for group, members in found:

@@ -15,6 +15,7 @@ from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
 from app.desk.hand import go_on_with_brush
 from app.language import said
+from app.language.words import say
 from app.panels.brush import example_section, move_choice, shape_choice, tip_section
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.dynamics_section import DynamicsSection
@@ -33,6 +34,7 @@ from engine.brush.modes import MODES
 from engine.brush.settings import SETTINGS
 from engine.studio.requests import Swatch
 
+_ON_WHITE = 0.36, 0.36, 0.36  # of the brush's name, on the white of its picture, whatever the look
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
 _FIXED = (
     ("canvas", "On canvas", "Textures lie still on the canvas: strokes merge"),
@@ -131,6 +133,9 @@ class BrushPanel:
         if picture is not None:
             white = theme.packed((1.0, 1.0, 1.0))
             painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, 4 * desk.scale)
+            size = 0.8 * imgui.get_font_size()
+            at = ImVec2(corner.x + 0.4 * size, end.y - 1.2 * size)
+            painter.add_text(imgui.get_font(), size, at, theme.packed(_ON_WHITE), say(desk.hand.preset))
 
     def _tools(self, desk: Desk) -> None:
         side = imgui.get_font_size() * 2.1

@@ -8,16 +8,18 @@ from app import icons, theme
 from app.desk.desk import Desk
 from app.desk.holding.favourites import digit_of, star
 from app.desk.presets import Preset
-from app.language import said
 from app.language.words import say
 from app.panels.brush.preset_menu import draw_menu
 from app.panels.brush.preset_picture import THUMB, draw_stroke
 from app.panels.controls import widgets as w
 
+_NAMED = 90.0  # points: brushes that are narrower show their pictures alone
+
 
 def tall_of(desk: Desk, wide: float) -> float:
-    """Returns the height of a brush `wide` across: its picture and its name."""
-    return wide * THUMB[1] / THUMB[0] + imgui.get_font_size() + 4 * desk.scale
+    """Returns the height of a brush `wide` across: its picture, and its name where there is room for one."""
+    named = wide >= _NAMED * desk.scale
+    return wide * THUMB[1] / THUMB[0] + (imgui.get_font_size() + 4 * desk.scale if named else 2 * desk.scale)
 
 
 def draw_tile(desk: Desk, preset: Preset, wide: float) -> tuple[bool, bool]:
@@ -42,13 +44,17 @@ def draw_tile(desk: Desk, preset: Preset, wide: float) -> tuple[bool, bool]:
     draw_stroke(desk, preset, corner, ImVec2(end.x, bottom + 2 * desk.scale))
     if digit or hovered:
         _star(desk, spot, digit)
-    _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.look.text if chosen else theme.look.soft)
+    if wide >= _NAMED * desk.scale:
+        tone = theme.look.text if chosen else theme.look.soft
+        _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, tone)
+    elif chosen:
+        painter.add_rect(corner, end, theme.packed(theme.look.accent), 4 * desk.scale, thickness=2 * desk.scale)
     return taken, True
 
 
 def _star_spot(desk: Desk, corner: ImVec2, wide: float) -> tuple[float, float, float]:
     """Returns where the star of a preset lies, and how large it is: left, top, side."""
-    side = imgui.get_font_size() * 1.25
+    side = min(imgui.get_font_size() * 1.25, 0.27 * wide)
     return corner.x + wide - side - 2 * desk.scale, corner.y + 2 * desk.scale, side
 
 
@@ -62,11 +68,12 @@ _FAVOURITE = 0.22, 0.42, 0.66  # on the white of pictures, whatever the look
 
 def _star(desk: Desk, spot: tuple[float, float, float], digit: int) -> None:
     """Draws the star of a favourite, with its digit; that of another brush, which is pointed at, faintly."""
-    (left, top, side), painter, size = spot, imgui.get_window_draw_list(), imgui.get_font_size()
-    grey = _FAVOURITE if digit else (0.45,) * 3 if _within(spot) else (0.57,) * 3
-    said.add_text(painter, ImVec2(left + (side - size) / 2, top + (side - size) / 2), theme.packed(grey), icons.STAR)
+    (left, top, side), painter, size = spot, imgui.get_window_draw_list(), spot[2] / 1.25
+    grey, inset = _FAVOURITE if digit else (0.45,) * 3 if _within(spot) else (0.57,) * 3, (side - size) / 2
+    painter.add_text(imgui.get_font(), size, ImVec2(left + inset, top + inset), theme.packed(grey), icons.STAR)
     if digit:
-        at = ImVec2(left + (side - said.calc_text_size(str(digit)).x * 0.7) / 2, top + 0.3 * size)
+        wide = imgui.calc_text_size(str(digit)).x * 0.7 * size / imgui.get_font_size()
+        at = ImVec2(left + (side - wide) / 2, top + 0.3 * size)
         painter.add_text(imgui.get_font(), size * 0.7, at, theme.packed((1.0, 1.0, 1.0)), str(digit))
 
 
