@@ -43,10 +43,17 @@ _NOTHING = np.zeros((COLOURS, TILE, TILE), np.float32)
 
 @dataclass(frozen=True)
 class BakeLevels:
-    """The level at which a placement should become pixels, and the finest that its source has."""
+    """The level at which a placement should become pixels, and the finest that its source has; `endless`: ink goes on
+    below that."""
 
     level: int
     finest: int
+    endless: bool = False
+
+    @property
+    def loses(self) -> bool:
+        """Tells whether the source has finer detail than the pixels."""
+        return self.endless or self.level < self.finest
 
 
 def paint_of(root: Group, node: Placement, frame: Rect, grid: int, level: int | None = None) -> Pyramid:
@@ -152,7 +159,9 @@ def bake_levels(root: Group, node: Placement, frame: Rect) -> BakeLevels | None:
     exact = layer is not None and layer.wrap is None and seen.similarity.quarter is not None and not seen.repeats
     if not showing.ways or exact:
         return None
-    return BakeLevels(showing.fitting(), showing.finest)
+    pyramids = [layer.pyramid for layer, _ in showing.ways]
+    endless = any(inks for one in pyramids for level in one.levels for inks in one.stacks(level))
+    return BakeLevels(showing.fitting(), showing.finest, endless)
 
 
 def _at_one_level(root: Group, node: Placement, frame: Rect, grid: int, level: int | None) -> Pyramid:

@@ -88,7 +88,7 @@ class Moves(Owned):
             self._easel.send(Note(str(error), bad=True))
             return
         level = None if found is None else found.level
-        loses = found is not None and found.level < found.finest
+        loses = found is not None and found.loses
         self._easel.send(BakeTold(BakePlacement(request.name, level), loses, flat))
 
     def _part(self, painting: Painting, name: str, way: str) -> LiftedPart:

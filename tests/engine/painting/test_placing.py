@@ -285,6 +285,16 @@ def test_anything_else_is_baked_at_one_level(members):
     np.testing.assert_allclose(picture(session.painting, 0, window), before, atol=3e-5)
 
 
+def test_ink_that_becomes_pixels_is_lost_below_them():
+    rock = {"ink": [{"texture": "rock", "amount": 0.5, "colour": "#806040"}]}
+    for more, lost in (({}, False), (rock, True)):
+        line = stroke(1)
+        session = done({**line, "brush": {**line["brush"], **more}}, placement(at=[10, 0], c=[0.9, 0.3]))
+        found = bake_levels(session.painting.root, layers.find(session.painting.root, "Copy"), session.painting.frame)
+        assert found.level == found.finest
+        assert found.loses == lost
+
+
 FINE = {**stroke(0, level=19), "origin": [30 << 19, 34 << 19]}
 DEEP = stroke(1), FINE, placement(at=[10, 0], c=[0.9, 0.3])
 
@@ -296,6 +306,7 @@ def test_paint_that_is_far_finer_than_most_is_baked_at_a_level_that_one_can_wait
     found = bake_levels(session.painting.root, node, session.painting.frame)
     assert found.finest == 19
     assert 0 < found.level < 19
+    assert found.loses
     with pytest.raises(Refusal, match="expected a coarser level"):
         session.do(c.parse({"do": "layer", "bake": "Copy", "level": 19}))
     with pytest.raises(Refusal, match="expected a coarser level"):
