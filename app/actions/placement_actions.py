@@ -11,9 +11,8 @@ from app.desk.moving import held_box
 from app.desk.moving.box import spot
 from app.desk.moving.poses import mirrored
 from app.desk.moving.setting_down import set_down
-from engine.painting.layer_commands import SelectLayer
+from app.desk.stack.chosen_layer import choose_layer
 from engine.studio.moving.move_requests import AskBake
-from engine.studio.requests import Do
 from engine.studio.results import Shows
 
 
@@ -40,7 +39,7 @@ def _movable(desk: Desk) -> bool:
 def _go_to_source(desk: Desk) -> None:
     shows = _shows(desk)
     if shows is not None and shows.name is not None:
-        desk.post(Do(SelectLayer(shows.name)))
+        choose_layer(desk, shows.name)
 
 
 def _make_independent(desk: Desk) -> None:

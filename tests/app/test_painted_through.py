@@ -1,14 +1,20 @@
 """Painting on what a placement shows: the stroke on its source is seen where the pen was."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from app.canvas.view import Place, View
+from app.desk.desk import Desk
 from app.desk.known import Known
 from app.desk.moving.painted_through import Through, through
+from app.desk.stack.chosen_layer import choose_layer
+from app.input.events import PenEvent
+from app.tools.painting_gestures import begin_stroke
 from engine.brush.copies import Copy
 from engine.canvas import layers
 from engine.canvas.composite import composite
@@ -115,3 +121,16 @@ def test_copies_are_seen_where_they_would_be_drawn(pose, copy, x, y):
 
     there = on_layer(*copy.moved(x, y))
     np.testing.assert_allclose(aimed.copies((copy,))[0].moved(*on_layer(x, y)), there, atol=1e-9)
+
+
+def test_who_chooses_another_layer_paints_there_before_the_engine_answers():
+    _, told = shown(Pose(at=(40, 0), turn=1))
+    posted = []
+    desk = Desk(View(Place(0, 0, 0), 0, 0.0, 1280, 800), posted.append)
+    desk.known = replace(told, ready=True)
+    choose_layer(desk, "Source")
+    begun = begin_stroke(desk, PenEvent("down", 5.0, 5.0))
+    assert begun.aimed is None
+    assert [type(one).__name__ for one in posted] == ["Do", "Begin"]
+    choose_layer(desk, "of another painting")
+    assert desk.known.active.name == "Source"

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from app.desk.desk import Desk
 from app.desk.naming import free_name
+from app.desk.stack.chosen_layer import choose_layer
 from engine.painting import commands as c
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow
@@ -54,7 +55,7 @@ def toggle_row(desk: Desk, row: LayerRow) -> None:
     many = desk.stack.many or ({active} if active else set())
     if row.name not in many:
         desk.stack.many = {*many, row.name}
-        desk.post(Do(c.SelectLayer(row.name)))
+        choose_layer(desk, row.name)
     elif len(many) > 1:
         desk.stack.many = many - {row.name}
         if row.name == active and scene is not None:

@@ -7,12 +7,12 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
+from app.desk.stack.chosen_layer import choose_layer
 from app.desk.stack.many_rows import chosen_rows, post_together
 from app.desk.stack.row_colours import ROW_COLOURS, colour_rows
 from app.language import said
 from app.panels.controls import widgets as w
 from engine.painting import commands as c
-from engine.studio.requests import Do
 from engine.studio.results import LayerRow
 from engine.studio.stack.stack_requests import layer_picture
 
@@ -54,7 +54,7 @@ def small_picture(desk: Desk, row: LayerRow) -> None:
     at = ImVec2(round(corner.x + (size.x - wide) / 2), round(corner.y + (size.y - high) / 2))
     to = ImVec2(at.x + round(wide), at.y + round(high))
     if imgui.invisible_button("picture", size, imgui.ButtonFlags_.enable_nav):
-        desk.post(Do(c.SelectLayer(row.name)))
+        choose_layer(desk, row.name)
     w.named(f"picture of {row.name}")
     imgui.get_window_draw_list().add_image(shown, at, to)
     imgui.same_line(0, 4 * desk.scale)
@@ -107,7 +107,7 @@ def _items(desk: Desk, row: LayerRow) -> bool:
     if imgui.is_window_appearing() and desk.known.scene is not None and desk.known.scene.active != row.name:
         if row.name not in desk.stack.many:
             desk.stack.many = set()
-        desk.post(Do(c.SelectLayer(row.name)))
+        choose_layer(desk, row.name)
     _colours(desk, row)
     rename = said.menu_item("Rename", "", False)[0]
     w.named("Rename")

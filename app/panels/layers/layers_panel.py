@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
+from app.desk.stack.chosen_layer import choose_layer
 from app.desk.stack.many_rows import chosen_rows, dropped_rows, post_together, reach_row, toggle_row
 from app.desk.stack.row_colours import colour_rows
 from app.language import said
@@ -166,7 +167,7 @@ class LayersPanel:
         if row.shows is not None:
             source = row.shows.name
             if w.icon_button("source", icons.LINK, "", enabled=source is not None) and source is not None:
-                desk.post(Do(c.SelectLayer(source)))
+                choose_layer(desk, source)
             w.tooltip(f"Shows {source}: click to go there" if source else "Shows the whole painting", beside=True)
             imgui.same_line(0, 2 * desk.scale)
         layer_row.small_picture(desk, row)
@@ -222,7 +223,7 @@ class LayersPanel:
             reach_row(desk, self._unfolded(desk.known.scene.layers if desk.known.scene else ()), row)
         elif not active or desk.stack.many:
             desk.stack.many = set()
-            desk.post(Do(c.SelectLayer(row.name)))
+            choose_layer(desk, row.name)
         elif desk.masks.on(row):
             desk.masks.end(desk.post)
 

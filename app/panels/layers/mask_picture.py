@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions import actions
 from app.desk.desk import Desk
+from app.desk.stack.chosen_layer import choose_layer
 from app.language import said
 from app.panels.controls import widgets as w
 from engine.painting import commands as c
@@ -65,7 +66,7 @@ def _more(desk: Desk, row: LayerRow) -> None:
 
 def _activate(desk: Desk, row: LayerRow) -> None:
     if desk.known.scene is not None and desk.known.scene.active != row.name:
-        desk.post(Do(c.SelectLayer(row.name)))
+        choose_layer(desk, row.name)
 
 
 def _pressed(desk: Desk, row: LayerRow) -> None:
