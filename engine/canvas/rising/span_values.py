@@ -19,25 +19,41 @@ def _scattered_plainly(values: np.ndarray, spans: np.ndarray, out: np.ndarray, t
     out[:, top : top + len(spans)][:, within(spans, out.shape[2])] = values.reshape(len(out), -1)
 
 
-def _clipped_plainly(spans: np.ndarray, by: int, width: int, out: np.ndarray) -> int:
-    """As `clip`, plainly."""
-    out[:] = np.clip(spans.astype(np.int32) + np.int32(by), 0, width)
-    out[out[:, 0] >= out[:, 1]] = 0
-    return int((out[:, 1] - out[:, 0]).sum())
+def _picked_plainly(data: np.ndarray, top: int, told: np.ndarray, by: int, spans: np.ndarray, out: np.ndarray) -> int:
+    """As `pick`, plainly."""
+    clipped = np.clip(told.astype(np.int32) + np.int32(by), 0, data.shape[2])
+    clipped[clipped[:, 0] >= clipped[:, 1]] = 0
+    count = len(data) * int((clipped[:, 1] - clipped[:, 0]).sum())
+    if count > len(out):
+        return -1
+    spans[:] = clipped
+    _gathered_plainly(data, top, clipped, out[:count])
+    return count
 
 
-@or_plain(_clipped_plainly)
+@or_plain(_picked_plainly)
 @uncounted
-def clip(spans: Array, by: int, width: int, out: Array) -> int:
-    """out, int32 (h, 2), = what of columns `spans`, uint8 (h, 2), lies in 0..width when they are moved `by` to the
-    right: 0, 0 where nothing does.  Returns how many columns that are."""
-    count = 0
-    for y in range(spans.shape[0]):
-        first, last = max(int(spans[y, 0]) + by, 0), min(int(spans[y, 1]) + by, width)
+def pick(data: Array, top: int, told: Array, by: int, spans: Array, out: Array) -> int:
+    """As `gather`, of what of columns `told`, uint8 (k, 2), lies in the rows when they are moved `by` to the right:
+    these become `spans`, uint8 (k, 2), 0, 0 where there are none.  Returns how many values that are; -1 where `out`
+    has no room for them."""
+    count, width = 0, data.shape[2]
+    for y in range(told.shape[0]):
+        first, last = max(int(told[y, 0]) + by, 0), min(int(told[y, 1]) + by, width)
         if first >= last:
             first = last = 0
-        out[y, 0], out[y, 1] = first, last
-        count += last - first
+        spans[y, 0], spans[y, 1] = first, last
+        count += (last - first) * data.shape[0]
+    if count > out.size:
+        return -1
+    n = 0
+    for c in range(data.shape[0]):
+        for y in range(told.shape[0]):
+            size = int(spans[y, 1]) - int(spans[y, 0])
+            row, o = data[c, top + y][spans[y, 0] : spans[y, 1]], out[n : n + size]
+            for i in range(size):
+                o[i] = row[i]
+            n += size
     return count
 
 

@@ -72,11 +72,10 @@ def spanned(record: Record, other: Record) -> SpannedData | None:
     at, rect = since.at, record.rect
     first, last = max(at.y0, rect.y0), min(at.y1, rect.y1)
     told = since.spans[max(first - at.y0, 0) : max(last - at.y0, 0)]
-    spans = np.empty(told.shape, np.int32)
-    count = span_values.clip(told, at.x0 - rect.x0, rect.width, spans)
-    if (count * len(data) * data.itemsize + _ROW * len(spans)) * _LESS > data.nbytes:
+    spans = np.empty(told.shape, np.uint8)
+    values = np.empty(max(data.nbytes // _LESS - _ROW * len(spans), 0) // data.itemsize, data.dtype)
+    count = span_values.pick(data, first - rect.y0, told, at.x0 - rect.x0, spans, values)
+    if count < 0:
         return None
-    values = np.empty(count * len(data), data.dtype)
-    span_values.gather(data, first - rect.y0, spans, values)
-    packed = spans.astype(np.uint8).tobytes() + values.tobytes()
+    packed = spans.tobytes() + values[:count].tobytes()
     return SpannedData(rect, record.inks, data.dtype, other, 0, packed, first - rect.y0, len(spans), False)

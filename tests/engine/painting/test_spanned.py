@@ -57,12 +57,20 @@ def test_what_lies_in_spans_is_gathered_plainly_and_put_back_by_kernels_as_plain
 
 
 @settings(deadline=None)
-@given(st.integers(0, 2**32 - 1), st.integers(-130, 130), st.integers(0, 128))
-def test_spans_are_clipped_by_the_kernel_as_plainly(seed, by, width):
-    spans = np.random.default_rng(seed).integers(0, 129, (9, 2)).astype(np.uint8)
-    one, other = np.empty((9, 2), np.int32), np.empty((9, 2), np.int32)
-    assert span_values.clip(spans, by, width, one) == span_values.clip.plain(spans, by, width, other)
-    assert np.array_equal(one, other)
+@given(st.integers(0, 2**32 - 1), st.integers(-130, 130), st.integers(1, 128), st.integers(0, 2000))
+def test_what_is_taken_is_what_lies_in_the_clipped_spans(seed, by, width, room):
+    rng = np.random.default_rng(seed)
+    told, data = rng.integers(0, 129, (9, 2)).astype(np.uint8), rng.integers(-9, 9, (4, 12, width)).astype(np.int16)
+    (one, other), (values, plain) = np.zeros((2, 9, 2), np.uint8), np.zeros((2, room), np.int16)
+    count = span_values.pick(data, 2, told, by, one, values)
+    assert count == span_values.pick.plain(data, 2, told, by, other, plain)
+    if count >= 0:
+        assert np.array_equal(one, other)
+        assert np.array_equal(values, plain)
+        assert np.array_equal(values[:count], data[:, 2:11][:, within(one.astype(np.int32), width)].reshape(-1))
+    else:
+        columns = np.clip(told.astype(int) + by, 0, width)
+        assert 4 * np.maximum(columns[:, 1] - columns[:, 0], 0).sum() > room
 
 
 @settings(deadline=None)
