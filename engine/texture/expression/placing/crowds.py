@@ -27,14 +27,25 @@ def extent_of_thing(thing: Thing) -> tuple[float, float, float, float]:
 def some(thing: Thing) -> Standing:
     """Returns some things of a kind, as they are by themselves, beside one another, `APART` from each to the next."""
     n = np.arange(THINGS_TRIED)
-    x, y = ((n * 5) % THINGS_TRIED / THINGS_TRIED - 0.5) * 1.4, ((n * 7) % THINGS_TRIED / THINGS_TRIED - 0.5) * 1.4
-    holder = thing.holder
+    one = np.ones(THINGS_TRIED)
+    x, y = ((n * m % THINGS_TRIED / THINGS_TRIED - 0.5) * 1.4 for m in (5, 7))
+    ids, asked, none = (n * 7919.0 + 12.0, n * 104729.0 + 5.0), _asked_at(thing, x, y), 0.0 * one
+    return Standing(n * APART, none, one, one, none, *ids, asked, none)
+
+
+def _asked_at(thing: Thing, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Returns what things ask of what holds them at some places in that, and this of what holds it: (k, n)."""
+    holder, told = thing.holder, _about_places(x, y)
     assert holder is not None
+    if holder.deep:
+        told |= {OUTER + k: row for k, row in enumerate(_asked_at(holder, 0.7 * y, 0.7 * x))}
+    return numbers_of(thing.asked, told, x.size)
+
+
+def _about_places(x: np.ndarray, y: np.ndarray) -> dict[int, np.ndarray]:
+    n = np.arange(x.size)
     told = {X: x, Y: y, OWN_A: n * 7.0, OWN_B: n * 13.0}
-    told |= {OUTER + k: _NO for k in range(len(holder.outer))}
-    told |= dict(zip(STROKE_TOLD.values(), (x + 4.0, y, 0.0 * x, 1.0 + 0.0 * x), strict=True))
-    outer, one = numbers_of(thing.asked, told, THINGS_TRIED), np.ones(THINGS_TRIED)
-    return Standing(n * APART, 0.0 * one, one, one, 0.0 * one, n * 7919.0 + 12.0, n * 104729.0 + 5.0, outer, 0.0 * one)
+    return told | dict(zip(STROKE_TOLD.values(), (x + 4.0, y, 0.0 * x, 1.0 + 0.0 * x), strict=True))
 
 
 def seen_box(seen: np.ndarray) -> tuple[float, float, float, float]:
@@ -52,11 +63,7 @@ def usual_size(thing: Thing) -> float:
     """Returns the largest size of things in some places of what holds them."""
     middles = np.arange(9) / 4.0 - 1.0
     x, y = np.tile(middles, 9), np.repeat(middles, 9)
-    assert thing.holder is not None
-    told = {X: x, Y: y, OWN_A: _NO, OWN_B: _NO} | {OUTER + k: _NO for k in range(len(thing.holder.outer))}
-    told |= dict(zip(STROKE_TOLD.values(), (x + 4.0, y, 0.0 * x, 1.0 + 0.0 * x), strict=True))
-    asked = numbers_of(thing.asked, told, x.size)
-    told |= {OUTER + k: row for k, row in enumerate(asked)}
+    told = _about_places(x, y) | {OUTER + k: row for k, row in enumerate(_asked_at(thing, x, y))}
     assert thing.spec is not None
     return float(numbers_of(thing.places, told, x.size)[1].max()) * (1.0 + thing.spec.vary)
 
@@ -69,43 +76,25 @@ def octave_of(width: float) -> int:
 
 def thing_looks(
     thing: Thing, octave: int, place: Spots, ids: tuple[np.ndarray, np.ndarray], outer: np.ndarray,
-    grain: tuple[np.ndarray, np.ndarray] | None = None, within: Mapping[int, np.ndarray] = MappingProxyType({}),
+    within: Mapping[int, np.ndarray] = MappingProxyType({}),
 ) -> np.ndarray:  # fmt: skip
     """Returns what things look like at places of their own: float32 (4, n).
 
-    `grain`: how far the next pixel to the right lies there; `within`: pictures of what is within them; of what is not
-    among these, from afar.
+    `within`: pictures of what is within them; of what is not among these, as a crowd.
     """
     made = thing.look(octave)
-    told: dict[int, np.ndarray] = {OWN_A: ids[0], OWN_B: ids[1], **within}
+    told: dict[int, np.ndarray] = {X: place[0], Y: place[1], OWN_A: ids[0], OWN_B: ids[1], **within}
     told |= {OUTER + k: row for k, row in enumerate(outer)}
     for number, child in enumerate(thing.children.values()):
         first = CHILD + 4 * number
         if first not in told and any(first <= kind < first + 4 for kind in made.takes):
             seen = as_crowd(child, place, ids, outer)
             told |= {first + c: _NO if seen is None else seen[c] for c in range(4)}
-    count, side = place[0].size, made.program.side
-    pictures = np.zeros((max(1, len(made.takes)), side, count * side))
+    count = place[0].size
+    pictures = np.zeros((max(1, len(made.takes)), 1, count))
     for plane, kind in zip(pictures, made.takes, strict=False):
-        if kind in (X, Y):
-            _fill_places(plane, kind, place, grain, side)
-        else:
-            plane[:] = np.repeat(np.broadcast_to(told[kind], (count,)), side)
-    return made.program.over(np.zeros(count * side), np.zeros(side), pictures)[:, 0]
-
-
-def _fill_places(
-    plane: np.ndarray, kind: int, place: Spots, grain: tuple[np.ndarray, np.ndarray] | None, side: int
-) -> None:
-    """Writes x or y of the samples of each pixel, (side, n side)."""
-    if grain is None or side == 1:
-        plane[:] = np.repeat(place[kind], side)
-        return
-    right, down = (grain[0], -grain[1]) if kind == X else (grain[1], grain[0])
-    for row in range(side):
-        for column in range(side):
-            across, below = ((n + 0.5) / side - 0.5 for n in (column, row))
-            plane[row, column::side] = place[kind] + (right * across + down * below)
+        plane[:] = told[kind]
+    return made.program.over(np.zeros(count), np.zeros(1), pictures)[:, 0]
 
 
 def as_crowd(

@@ -16,6 +16,7 @@ from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_integer, is_within
 from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
+from engine.numeric.pyramid import reduce
 from engine.texture.expression.defined import PERIOD_LEAST, PERIOD_MOST, expression
 from engine.texture.expression.placing.centre_line import POINTS_MOST, CentreLine
 from engine.texture.expression.placing.placed_scene import LineSight, bounds_of_line, changed_box, drawn_whole
@@ -24,6 +25,7 @@ from engine.texture.expression.written_ink import FINEST_PIXEL, Expression, pixe
 
 COLOURS_OF, COVER_OF, ALPHA_OF = "generated", "generated-cover", "generated-alpha"
 _KEPT = 24  # pictures of all parts
+_SMALL = 192  # pixels of a unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +72,16 @@ def _bounds(laid: LaidStroke, level: int) -> Rect:
 
 @lru_cache(_KEPT)
 def _drawn(laid: LaidStroke, level: int, rect: Rect) -> np.ndarray:
+    """Where things are small, and many lie in a pixel, the mean of finer pixels, each as it is drawn."""
+    if pixels(laid.unit, level - laid.base) < _SMALL:
+        out = reduce(_drawn_once(laid, level + 1, rect.zoomed(1)))
+    else:
+        out = _drawn_once(laid, level, rect)
+    out.flags.writeable = False
+    return out
+
+
+def _drawn_once(laid: LaidStroke, level: int, rect: Rect) -> np.ndarray:
     out = np.zeros((4, rect.height, rect.width), np.float32)
     inner = rect.intersect(laid.rect(level))
     if not inner.empty:
@@ -78,7 +90,6 @@ def _drawn(laid: LaidStroke, level: int, rect: Rect) -> np.ndarray:
         out[:, rows, columns] = made if len(made) == 4 else np.concatenate([made] * 3 + [np.ones_like(made)])
         np.clip(out[3], 0.0, 1.0, out=out[3])
         np.clip(out[:3], 0.0, out[3], out=out[:3])
-    out.flags.writeable = False
     return out
 
 

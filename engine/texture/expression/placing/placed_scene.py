@@ -267,7 +267,6 @@ def _looked_at(
     dy = (rows + start[1] + 0.5) * sight.pixel - standing.y[owner]
     cos, sin, size = standing.cos[owner], standing.sin[owner], standing.size[owner]
     place = (cos * dx + sin * dy) / size, (cos * dy - sin * dx) / size
-    grain = cos * sight.pixel / size, -sin * sight.pixel / size
     within: dict[int, np.ndarray] = {}
     for number, child in enumerate(thing.children.values()):
         if _is_near(child, standing, which, sight):
@@ -275,7 +274,7 @@ def _looked_at(
             planes = np.concatenate(parts, axis=1)
             within |= {CHILD + 4 * number + c: planes[c] for c in range(4)}
     ids = standing.first[owner], standing.second[owner]
-    return thing_looks(thing, octave, place, ids, standing.outer[:, owner], grain, within)
+    return thing_looks(thing, octave, place, ids, standing.outer[:, owner], within)
 
 
 def _piece(

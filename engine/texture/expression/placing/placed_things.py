@@ -2,7 +2,7 @@
 
 A thing is a part of the text in places of its own, x and y from -1 to 1 about where it stands.  It is woven by itself;
 what it takes from outside comes as pictures: its place, its numbers, what holds it (`outer`), the stroke, and things
-within it that are drawn before.
+within it that are drawn before.  One sample a pixel does: its edges are by how steep they are, and things are many.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from engine.texture.expression.written import STROKE_NAMES, Term, WrittenText
 
 DEEP_MOST = 4  # things within things
 _POINT = 2.0**-30  # the width at which places and sizes are told
-_SIDE_MOST = 2
 LESSENED = 16384.0
 _HALF_OCTAVE = 1.189207115002721
 X, Y, OWN_A, OWN_B = range(4)  # pictures that every thing may take; then what the stroke tells, what `outer` tells
 STROKE_TOLD = {name: 4 + n for n, name in enumerate(STROKE_NAMES)}
+_WAYS = {"along": (1.0, 0.0), "across": (0.0, 1.0)}  # how they rise, as if the line were straight
 OUTER = 16  # the first of these
 CHILD = 1 << 16  # of the nth thing within, four each
 
@@ -43,19 +43,25 @@ class Spec(NamedTuple):
 
 @dataclass(eq=False)
 class Thing:
-    """`outer`: what it asks of what holds it; `children`: things within it, by where in the text they are placed;
-    `texts`: what it is woven of; `number`: by which its hashes differ."""
+    """`outer`: what it asks of what holds it, the first of its numbers and how many; `children`: things within it, by
+    where in the text they are placed; `texts`: what it is woven of; `number`: by which its hashes differ; `measured`:
+    its box, and the size that it usually has."""
 
     texts: Texts
     term: Term | None
     spec: Spec | None
     deep: int = 0
     number: int = 0
-    outer: list[Term] = field(default_factory=list)
+    outer: dict[Term, tuple[int, int]] = field(default_factory=dict)
     children: dict[int, Thing] = field(default_factory=dict)
     _programs: dict[tuple[str, int], Placing] = field(default_factory=dict)
     holder: Thing | None = None
-    measured: tuple[float, ...] = ()  # by `measuring`
+    measured: tuple[float, ...] = ()
+
+    @property
+    def asks(self) -> int:
+        """Counts the numbers that it asks."""
+        return sum(count for _, count in self.outer.values())
 
     def look(self, octave: int) -> Placing:
         """Returns what it looks like where a pixel is 2^(octave / 2) wide, about, in its own places."""
@@ -117,9 +123,6 @@ class ThingScene:
         if self.placed:
             graph.x, graph.y = self.node(graph, X), self.node(graph, Y)
             graph.ways = {graph.x: (1.0, 0.0), graph.y: (0.0, 1.0)}
-        if self.stroke:  # as if the line were straight
-            graph.ways[self.node(graph, STROKE_TOLD["along"])] = 1.0, 0.0
-            graph.ways[self.node(graph, STROKE_TOLD["across"])] = 0.0, 1.0
         self.frame = graph.x, graph.y
 
     def cell(self, graph: Graph) -> tuple[int, int]:
@@ -133,15 +136,23 @@ class ThingScene:
         """As `PlacedWords.named`."""
         if not self.stroke:
             weaver.refuse(term, f"{term.told} within a thing", f"outer({term.told}): what it is where the thing stands")
-        return self.node(weaver.graph, STROKE_TOLD[term.told])
+        node = self.node(weaver.graph, STROKE_TOLD[term.told])
+        if term.told in _WAYS:
+            weaver.graph.ways[node] = _WAYS[term.told]
+            weaver.spreads.told[node] = weaver.spreads.told[weaver.graph.x]
+        return node
 
-    def told_by(self, weaver: Weaver, term: Term) -> int | None:
-        """Returns the node of what `outer` tells; None where nothing holds it."""
+    def told_by(self, weaver: Weaver, term: Term) -> tuple[int, ...] | None:
+        """Returns the nodes of what `outer` tells; None where nothing holds it."""
         if self.by is None:
             return None
-        if term not in self.by.outer:
-            self.by.outer.append(term)
-        return self.node(weaver.graph, OUTER + self.by.outer.index(term))
+        asked = self.by.outer
+        if term not in asked:
+            first = sum(count for _, count in asked.values())
+            asked[term] = first, 0
+            asked[term] = first, 4 if _asking(self.by, term).coloured else 1
+        first, count = asked[term]
+        return tuple(self.node(weaver.graph, OUTER + n) for n in range(first, first + count))
 
     def child(self, weaver: Weaver, term: Term, spec: Spec) -> tuple[int, ...]:
         """Returns the nodes of the colours of things within."""
@@ -169,24 +180,18 @@ def _weaver(thing: Thing, scene: ThingScene, width: float) -> Weaver:
     return Weaver(texts.written, Setting(texts.values, 0, texts.seed, width), texts.rules, scene)
 
 
-def _placing(weaver: Weaver, value: Value, side: int) -> Placing:
+def _placing(weaver: Weaver, value: Value) -> Placing:
     assert isinstance(weaver.scene, ThingScene)
     return Placing(
-        program(Woven(weaver.graph, value, cost_of(weaver.graph, value.nodes)), side), tuple(weaver.scene.takes)
+        program(Woven(weaver.graph, value, cost_of(weaver.graph, value.nodes)), 1), tuple(weaver.scene.takes)
     )
 
 
 def _look(thing: Thing, octave: int) -> Placing:
     assert thing.term is not None
     width = _HALF_OCTAVE * 2.0 ** (octave // 2) * (1.4142135623730951 if octave % 2 else 1.0)
-    side = 1
-    for _ in range(2):
-        weaver = _weaver(thing, ThingScene(thing, True, thing, False), width / side)
-        value = weaver.as_colour(weaver.value(thing.term, weaver.here))
-        if min(value.side, _SIDE_MOST) == side:
-            break
-        side = min(value.side, _SIDE_MOST)
-    return _placing(weaver, value, side)
+    weaver = _weaver(thing, ThingScene(thing, True, thing, False), width)
+    return _placing(weaver, weaver.as_colour(weaver.value(thing.term, weaver.here)))
 
 
 def _places(thing: Thing, octave: int) -> Placing:
@@ -198,18 +203,28 @@ def _places(thing: Thing, octave: int) -> Placing:
         usual if term is None else weaver.number(term, weaver.here.point).nodes[0]
         for term, usual in ((spec.where, one), (spec.size, one), (spec.turn, nothing))
     ]
-    return _placing(weaver, _lessened(weaver, nodes), 1)
+    return _placing(weaver, _lessened(weaver, nodes))
 
 
 def _asked(thing: Thing, octave: int) -> Placing:
-    holder = thing.holder
-    assert holder is not None
-    scene = ThingScene(holder, True, holder if holder.deep else None, holder.deep == 0)
-    weaver = _weaver(thing, scene, _POINT)
+    weaver = _holding(thing)
     nodes: list[int] = []
     for term in thing.outer:
-        nodes += weaver.number(term, weaver.here.point).nodes
-    return _placing(weaver, _lessened(weaver, nodes), 1)
+        nodes += weaver.value(term, weaver.here.point).nodes
+    return _placing(weaver, _lessened(weaver, nodes))
+
+
+def _asking(thing: Thing, term: Term) -> Value:
+    """Returns what something that a thing asks is, where it stands."""
+    weaver = _holding(thing)
+    return weaver.value(term, weaver.here.point)
+
+
+def _holding(thing: Thing) -> Weaver:
+    """Returns what tells of the places of what holds a thing."""
+    holder = thing.holder
+    assert holder is not None
+    return _weaver(thing, ThingScene(holder, True, holder if holder.deep else None, holder.deep == 0), _POINT)
 
 
 def _lessened(weaver: Weaver, nodes: list[int]) -> Value:
@@ -226,7 +241,7 @@ def cost_of_things(whole: Thing) -> float:
     while open_:
         thing = open_.pop()
         made = thing.look(-8).program
-        total += 2.0 * made.cost * made.side * made.side
+        total += 2.0 * made.cost
         open_.extend(thing.children.values())
     return total
 

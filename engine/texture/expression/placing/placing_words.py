@@ -36,8 +36,8 @@ def _row(weaver: Weaver, term: Term, env: Env) -> Value:
 def _outer(weaver: Weaver, term: Term, env: Env) -> Value:
     scene = weaver.scene
     assert isinstance(scene, ThingScene)
-    node = scene.told_by(weaver, term.parts[0])
-    return weaver.number(term.parts[0], env) if node is None else Value((node,))
+    nodes = scene.told_by(weaver, term.parts[0])
+    return weaver.value(term.parts[0], env) if nodes is None else Value(nodes)
 
 
 PLACING_WORDS: dict[str, tuple[int, int, Rule, str]] = {
