@@ -45,6 +45,15 @@ def test_it_is_made_with_spectral_textures_and_raster_operations():
     assert RECORDING.stat().st_size <= 1 << 20
 
 
+@pytest.mark.parametrize(("name", "count"), [("lake-morning", 2283), ("portrait", 1587)])
+def test_what_was_painted_with_the_pen_has_its_strokes(name, count):
+    strokes = [c for c in read(RECORDING.with_name(f"{name}.jsonl")).commands if isinstance(c, commands.Stroke)]
+    assert len(strokes) == count
+    assert {stroke.level for stroke in strokes} == {0, 2}  # from near, too
+    assert all(stroke.points[:, 2].max() <= 1.0 and len(set(stroke.points[:, 2])) > 1 for stroke in strokes)
+    assert sum(stroke.brush.wet is not None for stroke in strokes) > 150
+
+
 def test_script_writes_the_same_recording_again(tmp_path):
     for name in ("gallery", "brushes"):
         left_out = shutil.ignore_patterns("*.jsonl", "__pycache__")
