@@ -62,5 +62,6 @@ def _item(desk: Desk, action: Action) -> None:
 def _title(desk: Desk) -> None:
     title = desk.known.title if desk.known.path is not None else say(desk.known.title)
     text = f"{title}{' *' if desk.known.modified else ''}"
-    imgui.same_line((desk.view.width - imgui.calc_text_size(text).x) / 2)
+    middle = (desk.view.width - imgui.calc_text_size(text).x) / 2
+    imgui.same_line(max(middle, imgui.get_cursor_pos_x() + imgui.get_font_size()))  # beside the menus of a small window
     imgui.text_disabled(text)

@@ -89,7 +89,7 @@ def _left(desk: Desk, right: float) -> None:
     elif not desk.known.ready:
         said.text_disabled("Loading the paint engine…")
     else:
-        said.text_disabled(now_possible(desk))
+        said.text_disabled(ended(say(now_possible(desk)), right - imgui.get_cursor_pos_x()))
 
 
 def now_possible(desk: Desk) -> str:
