@@ -130,7 +130,7 @@ def _aim(desk: Desk) -> Through | str | None:
         return None
     aim = through(desk.known, layer, desk.view.shown_level)
     if isinstance(aim, Through) and desk.selecting.selected and aim.similarity != IDENTITY:
-        return f"Within a selection one paints on “{aim.layer}” itself, not on “{layer.name}”, which shows it"
+        return f"Within a selection paint on “{aim.layer}”, which “{layer.name}” shows"
     return aim
 
 

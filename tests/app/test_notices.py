@@ -174,5 +174,5 @@ def test_within_a_selection_one_paints_on_what_lies_elsewhere_at_its_source(scre
     screen.desk.selecting.choose(screen.desk.post, Select(Whole("all")))
     assert (begin_stroke(screen.desk, PenEvent("down", 5.0, 5.0)) is not None) == painted
     if not painted:
-        assert screen.desk.message.text.startswith("Within a selection one paints on “Leaves”")
+        assert screen.desk.message.text.startswith("Within a selection paint on “Leaves”")
         assert screen.desk.message.offers == ("source", "select_none")
