@@ -5,40 +5,52 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.numeric.kernel import Int, uncounted
+from engine.numeric.kernel import Int, inner_uncounted, uncounted
 
 _BINS = 32  # steps that are told apart: what lies deeper changes less often as a region grows
 
 
-@uncounted
-def rim_distance(mask: np.ndarray, width: Int, n: Int, out: np.ndarray) -> None:
+def rim_distance(mask: np.ndarray, width: int, n: int, out: np.ndarray) -> None:
     """Writes how far from the nearest pixel outside each of a mask, uint8 (h, w), lies: uint8 (h, w), 0 outside, to
     255 from `width` pixels of level 0 on; the mask is one of level `n`.
 
     Right up to `width` pixels from the edges: beyond these nothing is outside.
     """
+    far = min(254, max(3, (3 * width) >> n))
+    rows = np.full((2, mask.shape[1] + 2), far, np.int16)  # with a pixel more at each end, to which nothing is near
+    steps = np.minimum(np.arange(far + 1) * _BINS // far * (256 // _BINS), 255).astype(np.uint8)
+    _go_over(mask, np.int16(far), rows, steps, out)
+
+
+@uncounted
+def _go_over(mask: np.ndarray, far: Int, rows: np.ndarray, steps: np.ndarray, out: np.ndarray) -> None:
     height, wide = mask.shape
-    far = np.int32(min(254, max(3, (3 * width) >> n)))
-    for turn in range(2):
-        for i in range(height):
-            y = i if turn == 0 else height - 1 - i
-            back = -1 if turn == 0 else 1
-            for j in range(wide):
-                x = j if turn == 0 else wide - 1 - j
-                if mask[y, x] == 0:
-                    out[y, x] = 0
-                    continue
-                least = far if turn == 0 else np.int32(out[y, x])
-                if 0 <= x + back < wide:
-                    least = min(least, np.int32(out[y, x + back]) + 3)
-                if 0 <= y + back < height:
-                    least = min(least, np.int32(out[y + back, x]) + 3)
-                    if x > 0:
-                        least = min(least, np.int32(out[y + back, x - 1]) + 4)
-                    if x + 1 < wide:
-                        least = min(least, np.int32(out[y + back, x + 1]) + 4)
-                out[y, x] = least
-    for y in range(height):
+    for i in range(height):
+        before, now = rows[i & 1], rows[1 - (i & 1)]
+        _nearer(before, now, far)
+        inside, row = mask[i], out[i]
+        least = far
         for x in range(wide):
-            step = np.int32(out[y, x]) * _BINS // far
-            out[y, x] = min(255, step * (256 // _BINS))
+            least = min(now[x + 1], np.int16(least + 3)) if inside[x] else np.int16(0)
+            now[x + 1] = least
+            row[x] = least
+    rows[:] = far
+    for i in range(height):
+        before, now = rows[i & 1], rows[1 - (i & 1)]
+        _nearer(before, now, far)
+        row = out[height - 1 - i]
+        least = far
+        for j in range(wide):
+            x = wide - 1 - j
+            least = min(min(now[x + 1], np.int16(least + 3)), np.int16(row[x]))
+            now[x + 1] = least
+        for x in range(wide):
+            row[x] = steps[now[x + 1]]
+
+
+@inner_uncounted
+def _nearer(before: np.ndarray, now: np.ndarray, far: Int) -> None:
+    """Writes how far pixels of a row are by the row before, and no farther than `far`."""
+    for x in range(1, before.size - 1):
+        aslant = np.int16(min(before[x - 1], before[x + 1]) + 1)
+        now[x] = min(np.int16(min(before[x], aslant) + 3), far)

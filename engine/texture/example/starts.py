@@ -167,7 +167,7 @@ def _shaped(window: Window, y: Int, x: Int, start: Int, example: Example, rules:
     way = way_of(window, y, x, example)
     for i in range(example.starts[way], example.starts[way + COUNTS]):
         apart = max(_DRAWN, ones(bits ^ shape_at(example, i)))
-        if rules.told.size:
+        if apart <= least and rules.told.size:
             apart += told_apart(window, y, x, example, example.order[i], rules) // _LIKE
         if apart <= least:
             chance = mix64(h + np.uint64(i) * _GOLDEN)
