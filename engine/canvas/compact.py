@@ -63,8 +63,8 @@ def filled_planes(inks: tuple[Instance, ...], used: np.ndarray) -> tuple[np.ndar
 
 def trimmed(rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], depth: int, full: bool) -> Record | None:
     """As `compact`, of int16, which is the record's own where nothing is to be left out.  `full`: whether something
-    lies at each edge."""
-    if full and not inks:  # what fills its rectangle is not gone through
+    lies at each edge, and of each ink."""
+    if full:  # what fills its rectangle is not gone through
         data.flags.writeable = False
         return Record(rect, data, inks, depth)
     used = np.empty(len(data), np.int32)

@@ -11,6 +11,7 @@ from engine.numeric.ahead import ask
 from engine.numeric.grid import snap_to
 from engine.numeric.kernel import Array, inlined, inner_uncounted, kernel, uncounted
 from engine.numeric.stand_in import or_plain
+from engine.texture.planes import COLOURS
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 _THREE, _NINE, _SIXTEENTH = np.float32(3.0), np.float32(9.0), np.float32(1.0 / 16.0)
@@ -129,7 +130,7 @@ def renew(
 ) -> tuple[bool, int, bool]:  # fmt: skip
     """As `first_residual` of a tile that has a residual: `out` int16 (C, h, w), which is it, is written where it is
     touched.  Returns whether that changed it; the bits of the absolute values that belong there, not below 2^15 where
-    `out` cannot hold them; and whether something lies at each edge of `out`.
+    `out` cannot hold them; and whether something lies at each edge of `out`, and of each ink.
 
     `marks`: `touched` uint8 (H, W), and its spans (H, T, 2); `window`: the rows of these, an even one and how many, and
     which of the spans; where the first pixel of touched[0] lies in `out`, row and column, outside of it perhaps; and
@@ -180,8 +181,12 @@ def _ask_for(
 
 @inner_uncounted
 def _fills(data: Array) -> bool:
-    """Tells whether something lies in the first and in the last row, and in the first and in the last column."""
-    _, height, width = data.shape
+    """Tells whether something lies in the first and in the last row, in the first and in the last column, and of each
+    ink."""
+    planes, height, width = data.shape
+    for c in range(COLOURS, planes, 3):
+        if not _any_in(data[c : c + 3], 0, height, 0, width):
+            return False
     return (
         _any_in(data, 0, 1, 0, width)
         and _any_in(data, height - 1, height, 0, width)

@@ -8,6 +8,7 @@ from engine.canvas.plain import Corner, Window
 from engine.canvas.rising.spans import Found, Marks, Span, span, within
 from engine.numeric.kernel import Array
 from engine.numeric.pyramid import expanded_rows
+from engine.texture.planes import COLOURS
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 _EDGES = np.s_[0, :], np.s_[-1, :], np.s_[:, 0], np.s_[:, -1]
@@ -85,7 +86,8 @@ def renew(
 
 
 def _fills(data: np.ndarray) -> bool:
-    return all(bool(data[:, *edge].any()) for edge in _EDGES)
+    inks = (data[c : c + 3] for c in range(COLOURS, len(data), 3))
+    return all(bool(data[:, *edge].any()) for edge in _EDGES) and all(bool(ink.any()) for ink in inks)
 
 
 def edges(data: np.ndarray, used: np.ndarray) -> Span:
