@@ -209,10 +209,10 @@ def _tell(given: argparse.Namespace, made: Expression, whole: Rect, told: dict[s
     samples, cost = looks[-1].samples, looks[-1].cost
     if given.json:
         lines = [_line(look) for look in looks]
-        print(json.dumps(told | {"samples": samples, "cost": round(cost), "lines": lines}))
+        print(json.dumps(told | {"samples": samples or "1 to 16", "cost": round(cost), "lines": lines}))
         return
     colours = {1: "grey", 3: "colour", 4: "colour and alpha"}
-    how = f"{samples} sample{'s' if samples > 1 else ''} and about {cost:.0f} ns a pixel"
+    how = f"{looks[-1].told} and about {cost:.0f} ns a pixel"
     if given.out is not None:
         kind = colours[_channels(made, given.level)]
         print(f"wrote {given.out}: {whole.width} x {whole.height} pixels, {kind}, {given.depth} bits; {how}")
@@ -222,7 +222,7 @@ def _tell(given: argparse.Namespace, made: Expression, whole: Rect, told: dict[s
 
 def _line(look: LineLook) -> dict[str, object]:
     told = {"name": look.name, "row": look.row, "kind": "colour" if look.coloured else "number"}
-    return told | {"samples": look.samples, "cost": round(look.cost)}
+    return told | {"samples": look.samples or "1 to 16", "cost": round(look.cost)}
 
 
 def _tell_words() -> int:

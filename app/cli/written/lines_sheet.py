@@ -37,7 +37,7 @@ def lines_sheet(made: Expression, level: int, whole: Rect) -> np.ndarray:
 
 def _titles(number: int, look: LineLook) -> tuple[str, str]:
     name = look.name or "the texture"
-    return f"{number + 1}  {name}"[:26], f"{look.cost:.0f} ns, {look.samples} a pixel"
+    return f"{number + 1}  {name}"[:26], f"{look.cost:.0f} ns, {look.told}"
 
 
 def _grey(values: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ from app.desk.desk import Desk
 from app.language import said
 from app.panels.controls import widgets as w
 from engine.studio.workshop.workshop_records import LINES_ACROSS, WorkshopLine
+from engine.texture.expression.written import samples_told
 
 _LARGE = 128  # points of a line's picture under the pointer
 
@@ -79,8 +80,7 @@ def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
     """Draws a line's picture larger, and what is known of it."""
     side, padding = _LARGE * desk.scale, imgui.get_style().window_padding
     shown = desk.pictures.get("workshop lines")
-    samples = "1 sample" if line.samples == 1 else f"{line.samples} samples"
-    text = f"{line.cost:,.0f} ns a pixel, {samples}"
+    text = f"{line.cost:,.0f} ns a pixel, {samples_told(line.samples)}"
     about = f"{line.least:.2f} … {line.most:.2f}"
     high = side + 3 * imgui.get_text_line_height_with_spacing()
     wide = max(side, said.calc_text_size(text).x, said.calc_text_size(line.name).x)

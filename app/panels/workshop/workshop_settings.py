@@ -13,6 +13,7 @@ from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.colour_popup import colour_popup
 from engine.studio.workshop.workshop_records import Setting
+from engine.texture.expression.written import samples_told
 
 _TONES = ((0.86, 0.36, 0.32), (0.36, 0.72, 0.36), (0.36, 0.52, 0.90))
 
@@ -82,9 +83,8 @@ def _facts(desk: Desk) -> None:
     text = f"{scene.most:g}"
     imgui.same_line(wide - said.calc_text_size(text).x)
     said.text_disabled(text)
-    samples = "1 sample" if line.samples == 1 else f"{line.samples} samples"
     imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
-    said.text_wrapped(f"{line.cost:,.0f} ns a pixel, {samples}")
+    said.text_wrapped(f"{line.cost:,.0f} ns a pixel, {samples_told(line.samples)}")
     imgui.pop_style_color()
     w.tooltip("What it costs, with all that it refers to; what has no exact mean is looked at in 4 or 16 points")
     if scene.shimmer >= 0.0:

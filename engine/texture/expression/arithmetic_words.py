@@ -7,37 +7,47 @@ from collections.abc import Callable
 
 from engine.numeric import elementary
 from engine.texture.expression.codes import Code
+from engine.texture.expression.graph import NO_ERROR
 from engine.texture.expression.spreads import Spread
-from engine.texture.expression.weaving import JUMP_SIDE, Env, Rule, Value, Weaver, aslant, side_for
+from engine.texture.expression.weaving import Env, Rule, Value, Weaver, aslant
 from engine.texture.expression.written import Term
 
+_SEES = 0.6  # of its width: how far beyond a step a sample sees it
 _WHOLE = math.sqrt(12.0)  # standard deviations within what rises evenly
-_Pair = tuple[int, int]  # a node, and how many samples along a pixel its mean takes
+_Pair = tuple[int, int]  # a node, and the error of its mean
 Work = Callable[[Weaver, int, int], _Pair]
 
 
-def zipped(weaver: Weaver, term: Term, env: Env, work: Work) -> Value:
-    """Returns what a function of two numbers makes of two values, channel by channel; alpha is the larger one."""
+Weigh = Callable[[Weaver, Value, Value], int]
+
+
+def _both(weaver: Weaver, a: Value, b: Value) -> int:
+    return weaver.errors.worst(a.error, b.error)
+
+
+def zipped(weaver: Weaver, term: Term, env: Env, work: Work, weigh: Weigh = _both) -> Value:
+    """Returns what a function of two numbers makes of two values, channel by channel; alpha is the larger one; `weigh`:
+    the error that follows from theirs."""
     a, b = (weaver.value(part, env) for part in term.parts[:2])
-    side = max(a.side, b.side)
+    error = weigh(weaver, a, b)
     if not (a.coloured or b.coloured):
         node, more = work(weaver, a.nodes[0], b.nodes[0])
-        return Value((node,), max(side, more if env.mean else 1))
+        return Value((node,), weaver.errors.worst(error, more) if env.mean else error)
     left, right = (one.nodes[:3] if one.coloured else one.nodes * 3 for one in (a, b))
     made = [work(weaver, *pair) for pair in zip(left, right, strict=True)]
     alphas = [one.nodes[3] for one in (a, b) if one.coloured]
     alpha = alphas[0] if len(alphas) == 1 else weaver.graph.most(*alphas)
     if env.mean:
-        side = max(side, *(more for _, more in made))
-    return Value((*(node for node, _ in made), alpha), side)
+        error = weaver.errors.worst(error, *(more for _, more in made))
+    return Value((*(node for node, _ in made), alpha), error)
 
 
 def _add(weaver: Weaver, a: int, b: int) -> _Pair:
-    return weaver.graph.add(a, b), 1
+    return weaver.graph.add(a, b), NO_ERROR
 
 
 def _subtract(weaver: Weaver, a: int, b: int) -> _Pair:
-    return weaver.graph.sub(a, b), 1
+    return weaver.graph.sub(a, b), NO_ERROR
 
 
 def _multiply(weaver: Weaver, a: int, b: int) -> _Pair:
@@ -47,12 +57,18 @@ def _multiply(weaver: Weaver, a: int, b: int) -> _Pair:
     node = weaver.graph.mul(a, b)
     if a == b:
         node = weaver.graph.plus(node, weaver.spreads.of(a).lost_squared)
-    return node, side_for(error)
+    return node, weaver.errors.flat(error)
+
+
+def _factors(weaver: Weaver, a: Value, b: Value) -> int:
+    return weaver.errors.worst(
+        weaver.errors.weighed(a.error, *b.nodes[:3]), weaver.errors.weighed(b.error, *a.nodes[:3])
+    )
 
 
 def _divide(weaver: Weaver, a: int, b: int) -> _Pair:
     fixed = weaver.graph.value(b) is not None
-    return weaver.graph.div(a, b), 1 if fixed else side_for(4.0 * weaver.spreads.of(b).within)
+    return weaver.graph.div(a, b), NO_ERROR if fixed else weaver.errors.flat(4.0 * weaver.spreads.of(b).within)
 
 
 def _of_two(work: Work) -> Rule:
@@ -62,7 +78,7 @@ def _of_two(work: Work) -> Rule:
 def _negated(weaver: Weaver, term: Term, env: Env) -> Value:
     value = weaver.value(term.parts[0], env)
     nodes = tuple(weaver.graph.times(node, -1.0) for node in value.nodes[:3])
-    return Value((*nodes, *value.nodes[3:]), value.side)
+    return Value((*nodes, *value.nodes[3:]), value.error)
 
 
 def _compared(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -76,12 +92,12 @@ def _compared(weaver: Weaver, term: Term, env: Env) -> Value:
     if graph.value(told) is not None:
         code = Code.LESS if len(term.operation) == 1 else Code.LESS_EQUAL
         return Value((graph.node(code, left, right),))
-    return Value((weaver.covered(told),), max(a.side, b.side, threshold_side(weaver, told)))
+    return Value((weaver.covered(told),), edge_error(weaver, told, weaver.errors.worst(a.error, b.error)))
 
 
-def threshold_side(weaver: Weaver, node: int, steep: float = 1.0) -> int:
-    """Returns how many samples a threshold takes: more where something is lost."""
-    return side_for(1.3 * weaver.spreads.of(node).lost * steep)
+def edge_error(weaver: Weaver, node: int, given: int) -> int:
+    """Returns the error of a threshold: where something is lost, and of what it is a threshold of."""
+    return weaver.errors.at_edge(node, 1.3 * weaver.spreads.of(node).lost, given)
 
 
 def _chosen(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -91,7 +107,7 @@ def _chosen(weaver: Weaver, term: Term, env: Env) -> Value:
     if told is not None:
         found = a if told != 0.0 else b
         return weaver.as_colour(found) if a.coloured or b.coloured else found
-    return mixed_by(weaver, (b, a), Value((weaver.graph.within(test.nodes[0]),), test.side), env)
+    return mixed_by(weaver, (b, a), Value((weaver.graph.within(test.nodes[0]),), test.error), env)
 
 
 def mixed_by(weaver: Weaver, ends: tuple[Value, Value], part: Value, env: Env) -> Value:
@@ -100,13 +116,20 @@ def mixed_by(weaver: Weaver, ends: tuple[Value, Value], part: Value, env: Env) -
     if a.coloured != b.coloured:
         a, b = weaver.as_colour(a), weaver.as_colour(b)
     graph, way = weaver.graph, part.nodes[0]
-    nodes, side = [], max(a.side, b.side, part.side)
+    nodes, apart, own = [], [], 0.0
     for one, other in zip(a.nodes, b.nodes, strict=True):
         away = graph.sub(other, one)
+        apart.append(away)
         if env.mean and graph.value(away) is None and graph.value(way) is None:
-            side = max(side, side_for(weaver.spreads.of(away).within * weaver.spreads.of(way).within))
+            own = max(own, weaver.spreads.of(away).within * weaver.spreads.of(way).within)
         nodes.append(graph.blend(one, other, way))
-    return Value(tuple(nodes), side)
+    rest = graph.sub(graph.constant(1.0), way)
+    given = (
+        weaver.errors.weighed(a.error, rest),
+        weaver.errors.weighed(b.error, way),
+        weaver.errors.weighed(part.error, *apart),
+    )
+    return Value(tuple(nodes), weaver.errors.worst(*given, weaver.errors.flat(own)))
 
 
 def _mix(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -124,22 +147,22 @@ def _bent(weaver: Weaver, a: int, b: int, sign: float) -> int:
 
 
 def _sampled_bend(weaver: Weaver, term: Term, value: Value) -> Value:
-    """Returns what is bent, with the samples that what is lost of it takes."""
+    """Returns what is bent, with the error that follows from what is lost of it."""
     lost = max(weaver.spreads.of(node).lost for node in value.nodes)
-    return Value(value.nodes, max(value.side, side_for(0.2 * lost)))
+    return Value(value.nodes, weaver.errors.worst(value.error, weaver.errors.flat(0.2 * lost)))
 
 
 def _least(weaver: Weaver, term: Term, env: Env) -> Value:
     if not env.mean:
-        return zipped(weaver, term, env, lambda w, a, b: (w.graph.least(a, b), 1))
-    found = zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, -1.0), 1))
+        return zipped(weaver, term, env, lambda w, a, b: (w.graph.least(a, b), NO_ERROR))
+    found = zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, -1.0), NO_ERROR))
     return _sampled_bend(weaver, term, found)
 
 
 def _most(weaver: Weaver, term: Term, env: Env) -> Value:
     if not env.mean:
-        return zipped(weaver, term, env, lambda w, a, b: (w.graph.most(a, b), 1))
-    found = zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, 1.0), 1))
+        return zipped(weaver, term, env, lambda w, a, b: (w.graph.most(a, b), NO_ERROR))
+    found = zipped(weaver, term, env.point, lambda w, a, b: (_bent(w, a, b, 1.0), NO_ERROR))
     return _sampled_bend(weaver, term, found)
 
 
@@ -147,21 +170,21 @@ def _absolute(weaver: Weaver, term: Term, env: Env) -> Value:
     value, graph = weaver.number(term.parts[0], env.point), weaver.graph
     node = value.nodes[0]
     if not env.mean or graph.value(node) is not None:
-        return Value((graph.node(Code.ABS, node),), value.side)
-    return _sampled_bend(weaver, term, Value((graph.sub(graph.times(weaver.ramped(node), 2.0), node),), value.side))
+        return Value((graph.node(Code.ABS, node),), value.error)
+    return _sampled_bend(weaver, term, Value((graph.sub(graph.times(weaver.ramped(node), 2.0), node),), value.error))
 
 
 def _clamped(weaver: Weaver, term: Term, env: Env) -> Value:
     value, low, high = (weaver.number(part, env.point) for part in term.parts)
-    side = max(value.side, low.side, high.side)
+    error = weaver.errors.worst(value.error, low.error, high.error)
     if not env.mean:
         graph = weaver.graph
-        return Value((graph.least(graph.most(value.nodes[0], low.nodes[0]), high.nodes[0]),), side)
-    return Value((_bent(weaver, _bent(weaver, value.nodes[0], low.nodes[0], 1.0), high.nodes[0], -1.0),), side)
+        return Value((graph.least(graph.most(value.nodes[0], low.nodes[0]), high.nodes[0]),), error)
+    return Value((_bent(weaver, _bent(weaver, value.nodes[0], low.nodes[0], 1.0), high.nodes[0], -1.0),), error)
 
 
 def fractional(weaver: Weaver, node: int, mean: bool) -> tuple[int, int]:
-    """Returns what lies behind the point of a number, and how many samples it takes.
+    """Returns what lies behind the point of a number, and the error of that.
 
     Its mean is exact where it changes evenly: the integral of fract(t) is (floor(t) + fract(t)^2) / 2.  As a point it
     fades to 1/2 where a sample spans more than one whole number.
@@ -170,14 +193,14 @@ def fractional(weaver: Weaver, node: int, mean: bool) -> tuple[int, int]:
     plain = graph.sub(node, graph.node(Code.FLOOR, node))
     wide = weaver.width(node)
     if graph.value(wide) == 0.0:
-        return plain, 1
+        return plain, NO_ERROR
     if not mean:
         weaver.spreads.told[plain] = wrapped(weaver, node)
         seen = graph.within(graph.plus(graph.times(wide, -2.0), 2.4))
         half = graph.constant(0.5)
         made = graph.add(half, graph.mul(graph.sub(plain, half), seen))
         weaver.spreads.told[made] = weaver.spreads.of(plain)
-        return made, JUMP_SIDE
+        return made, weaver.errors.jump(node)
 
     def sawtooth(middle: int, wide: int) -> int:
         wide = graph.most(wide, graph.constant(1e-6))
@@ -188,7 +211,7 @@ def fractional(weaver: Weaver, node: int, mean: bool) -> tuple[int, int]:
         summed = graph.add(graph.sub(wholes[1], wholes[0]), squares)
         return graph.div(summed, graph.times(wide, 2.0))
 
-    return aslant(weaver, node, sawtooth), 1
+    return aslant(weaver, node, sawtooth), NO_ERROR
 
 
 def wrapped(weaver: Weaver, node: int) -> Spread:
@@ -199,23 +222,24 @@ def wrapped(weaver: Weaver, node: int) -> Spread:
 
 def _fract(weaver: Weaver, term: Term, env: Env) -> Value:
     value = weaver.number(term.parts[0], env.point)
-    node, side = fractional(weaver, value.nodes[0], env.mean)
-    return Value((node,), max(side, value.side))
+    node, error = fractional(weaver, value.nodes[0], env.mean)
+    return Value((node,), weaver.errors.worst(error, value.error))
 
 
 def _floor(weaver: Weaver, term: Term, env: Env) -> Value:
     value = weaver.number(term.parts[0], env.point)
     node = value.nodes[0]
     if not env.mean:
-        return Value((weaver.graph.node(Code.FLOOR, node),), JUMP_SIDE)
-    rest, side = fractional(weaver, node, True)
-    return Value((weaver.graph.sub(node, rest),), max(side, value.side))
+        return Value((weaver.graph.node(Code.FLOOR, node),), weaver.errors.worst(weaver.errors.jump(node), value.error))
+    rest, error = fractional(weaver, node, True)
+    return Value((weaver.graph.sub(node, rest),), weaver.errors.worst(error, value.error))
 
 
 def _mod(weaver: Weaver, term: Term, env: Env) -> Value:
     a, b = (weaver.number(part, env.point) for part in term.parts)
-    rest, side = fractional(weaver, weaver.graph.div(a.nodes[0], b.nodes[0]), env.mean)
-    return Value((weaver.graph.mul(b.nodes[0], rest),), max(side, a.side, b.side))
+    rest, error = fractional(weaver, weaver.graph.div(a.nodes[0], b.nodes[0]), env.mean)
+    error = weaver.errors.worst(weaver.errors.weighed(error, b.nodes[0]), a.error, b.error)
+    return Value((weaver.graph.mul(b.nodes[0], rest),), error)
 
 
 def _step(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -223,7 +247,7 @@ def _step(weaver: Weaver, term: Term, env: Env) -> Value:
     graph, away = weaver.graph, weaver.graph.sub(value.nodes[0], edge.nodes[0])
     if graph.value(away) is not None:
         return Value((graph.node(Code.LESS_EQUAL, edge.nodes[0], value.nodes[0]),))
-    return Value((weaver.covered(away),), max(edge.side, value.side, threshold_side(weaver, away)))
+    return Value((weaver.covered(away),), edge_error(weaver, away, weaver.errors.worst(edge.error, value.error)))
 
 
 def smooth(weaver: Weaver, t: int) -> int:
@@ -249,8 +273,22 @@ def smooth(weaver: Weaver, t: int) -> int:
 def _smoothstep(weaver: Weaver, term: Term, env: Env) -> Value:
     low, high, value = (weaver.number(part, env.point) for part in term.parts)
     graph = weaver.graph
-    t = graph.div(graph.sub(value.nodes[0], low.nodes[0]), graph.sub(high.nodes[0], low.nodes[0]))
-    return Value((smooth(weaver, t),), max(low.side, high.side, value.side, threshold_side(weaver, t)))
+    span = graph.sub(high.nodes[0], low.nodes[0])
+    t = graph.div(graph.sub(value.nodes[0], low.nodes[0]), span)
+    given = weaver.errors.worst(low.error, high.error, value.error)
+    given = NO_ERROR if given == NO_ERROR else graph.div(given, graph.node(Code.ABS, span))
+    return Value((smooth(weaver, t),), _step_error(weaver, t, given))
+
+
+def _step_error(weaver: Weaver, t: int, given: int) -> int:
+    """Returns the error of a smooth step: none where the sample sees but one of its ends."""
+    own = weaver.errors.local(1.3 * weaver.spreads.of(t).lost)
+    if own == NO_ERROR and given == NO_ERROR:
+        return NO_ERROR
+    graph = weaver.graph
+    reach = graph.plus(graph.add(graph.times(weaver.width(t), _SEES), given), 0.5)
+    seen = graph.node(Code.LESS, graph.node(Code.ABS, graph.plus(t, -0.5)), reach)
+    return graph.pick(seen, weaver.errors.worst(own, weaver.errors.bounded(given, 1.5)), NO_ERROR)
 
 
 def _wave(code: int) -> Rule:
@@ -262,7 +300,7 @@ def _wave(code: int) -> Rule:
         half = graph.times(weaver.plain_width(node), 0.5)
         told = graph.value(half)
         if told == 0.0:
-            return Value((wave,), value.side)
+            return Value((wave,), weaver.errors.bounded(value.error))
         small = graph.most(half, graph.constant(1e-4))
         left = graph.div(graph.node(Code.SIN, small), small)
         if told is not None:
@@ -270,7 +308,9 @@ def _wave(code: int) -> Rule:
         if told is None:
             left = graph.pick(graph.node(Code.LESS, half, graph.constant(3.141592653589793)), left, graph.constant(0.0))
         error = 0.0 if weaver.even(node) else weaver.spreads.of(node).within_squared
-        return Value((graph.mul(wave, left),), max(value.side, side_for(error)))
+        return Value(
+            (graph.mul(wave, left),), weaver.errors.worst(weaver.errors.bounded(value.error), weaver.errors.flat(error))
+        )
 
     return rule
 
@@ -290,8 +330,8 @@ def _plain(code: int) -> Rule:
         values = [weaver.number(part, env.point) for part in term.parts]
         node = weaver.graph.node(code, *(value.nodes[0] for value in values))
         error = 4.0 * sum(weaver.spreads.of(value.nodes[0]).within_squared for value in values)
-        side = 1 if weaver.graph.value(node) is not None or not env.mean else side_for(error)
-        return Value((node,), max(side, *(value.side for value in values)))
+        own = NO_ERROR if weaver.graph.value(node) is not None or not env.mean else weaver.errors.flat(error)
+        return Value((node,), weaver.errors.worst(own, *(value.error for value in values)))
 
     return rule
 
@@ -300,10 +340,10 @@ def _power(weaver: Weaver, term: Term, env: Env) -> Value:
     base, exponent = (weaver.number(part, env.point) for part in term.parts)
     graph, told = weaver.graph, weaver.graph.value(exponent.nodes[0])
     node = base.nodes[0]
-    error = weaver.spreads.of(node).within_squared + weaver.spreads.of(exponent.nodes[0]).within
-    side = max(base.side, exponent.side, side_for(error) if env.mean else 1)
+    own = weaver.spreads.of(node).within_squared + weaver.spreads.of(exponent.nodes[0]).within
+    error = weaver.errors.worst(base.error, exponent.error, weaver.errors.flat(own) if env.mean else NO_ERROR)
     if told is None or told not in (0.0, 1.0, 2.0, 3.0, 4.0) or graph.value(node) is not None:
-        return Value((graph.node(Code.POW, node, exponent.nodes[0]),), side)
+        return Value((graph.node(Code.POW, node, exponent.nodes[0]),), error)
     if told % 2.0:
         node = graph.node(Code.ABS, node)
     made = graph.constant(1.0)
@@ -311,13 +351,13 @@ def _power(weaver: Weaver, term: Term, env: Env) -> Value:
         made = graph.mul(made, node)
     if told == 2.0 and env.mean:
         made = graph.plus(made, weaver.spreads.of(node).lost_squared)
-    return Value((made,), side)
+    return Value((made,), error)
 
 
 ARITHMETIC: dict[str, Rule] = {
     "+": _of_two(_add),
     "-": _of_two(_subtract),
-    "*": _of_two(_multiply),
+    "*": lambda weaver, term, env: zipped(weaver, term, env, _multiply, _factors),
     "/": _of_two(_divide),
     "neg": _negated,
     "<": _compared,

@@ -8,11 +8,14 @@ from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.functions import functions
 from engine.texture.expression.arithmetic_words import Work, zipped
 from engine.texture.expression.codes import Code
+from engine.texture.expression.graph import NO_ERROR
+from engine.texture.expression.sampling.errors import FEW_FROM
 from engine.texture.expression.spreads import steepest as spread_of_ramp
-from engine.texture.expression.weaving import POINT_SIDE, Env, Rule, Value, Weaver, side_for
+from engine.texture.expression.weaving import Env, Rule, Value, Weaver
 from engine.texture.expression.written import Term
 
 _KNOTS_MOST = 64
+_UNEVEN = 1.5 * FEW_FROM  # the error of what bends, or is a product, that is not looked into
 _AZIMUTH, _DEPTH = 315.0, 0.25
 
 
@@ -23,7 +26,8 @@ def _knots(weaver: Weaver, t: Value, places: list[float], columns: list[tuple[fl
         weaver.graph.node(Code.RAMP, node, weaver.width(node), numbers=(*places, *column)) for column in columns
     )
     steepest = max(spread_of_ramp((*places, *column)) for column in columns)
-    return Value(nodes, max(t.side, side_for(0.3 * weaver.spreads.of(node).lost * steepest)))
+    own = weaver.errors.flat(0.3 * weaver.spreads.of(node).lost * steepest)
+    return Value(nodes, weaver.errors.worst(own, weaver.errors.bounded(t.error, steepest)))
 
 
 def _ramp(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -49,7 +53,7 @@ def _ramp(weaver: Weaver, term: Term, env: Env) -> Value:
     columns = [tuple(channel) for channel in channels]
     made = _knots(weaver, weaver.number(term.parts[0], env.point), places, columns)
     opaque = all(one == 1.0 for one in columns[3])
-    return Value((*made.nodes[:3], weaver.graph.constant(1.0)), made.side) if opaque else made
+    return Value((*made.nodes[:3], weaver.graph.constant(1.0)), made.error) if opaque else made
 
 
 def _rising(weaver: Weaver, term: Term, env: Env, parts: tuple[Term, ...]) -> list[float]:
@@ -72,8 +76,8 @@ def _curve(weaver: Weaver, term: Term, env: Env) -> Value:
 
 def _rgb(weaver: Weaver, term: Term, env: Env) -> Value:
     values = [weaver.number(part, env) for part in term.parts]
-    side = max(value.side for value in values)
-    return Value((*(value.nodes[0] for value in values), weaver.graph.constant(1.0)), side)
+    error = weaver.errors.worst(*(value.error for value in values))
+    return Value((*(value.nodes[0] for value in values), weaver.graph.constant(1.0)), error)
 
 
 def _hsv(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -87,14 +91,14 @@ def _hsv(weaver: Weaver, term: Term, env: Env) -> Value:
         pure = graph.within(graph.plus(away, -1.0))
         nodes.append(graph.mul(value, graph.blend(graph.constant(1.0), pure, saturation)))
     fixed = all(graph.value(node) is not None for node in nodes)
-    side = max(1 if fixed or not env.mean else POINT_SIDE, *(one.side for one in values))
-    return Value((*nodes, graph.constant(1.0)), side)
+    own = NO_ERROR if fixed or not env.mean else weaver.errors.flat(_UNEVEN)
+    return Value((*nodes, graph.constant(1.0)), weaver.errors.worst(own, *(one.error for one in values)))
 
 
 def _channel(number: int) -> Rule:
     def rule(weaver: Weaver, term: Term, env: Env) -> Value:
         value = weaver.colour(term.parts[0], env)
-        return Value((value.nodes[number],), value.side)
+        return Value((value.nodes[number],), value.error)
 
     return rule
 
@@ -102,7 +106,7 @@ def _channel(number: int) -> Rule:
 def _luma(weaver: Weaver, term: Term, env: Env) -> Value:
     value, graph = weaver.colour(term.parts[0], env), weaver.graph
     parts = [graph.times(node, part) for node, part in zip(value.nodes, (0.3, 0.59, 0.11), strict=False)]
-    return Value((graph.add(graph.add(parts[0], parts[1]), parts[2]),), value.side)
+    return Value((graph.add(graph.add(parts[0], parts[1]), parts[2]),), value.error)
 
 
 def _fade(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -110,7 +114,8 @@ def _fade(weaver: Weaver, term: Term, env: Env) -> Value:
     graph, way = weaver.graph, weaver.graph.within(part.nodes[0])
     changing = env.mean and graph.value(way) is None and any(graph.value(node) is None for node in value.nodes)
     nodes = tuple(graph.mul(node, way) for node in value.nodes)
-    return Value(nodes, max(value.side, part.side, POINT_SIDE if changing else 1))
+    given = weaver.errors.weighed(value.error, way), weaver.errors.weighed(part.error, *value.nodes)
+    return Value(nodes, weaver.errors.worst(*given, weaver.errors.flat(_UNEVEN) if changing else NO_ERROR))
 
 
 def _over(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -120,7 +125,8 @@ def _over(weaver: Weaver, term: Term, env: Env) -> Value:
     told = graph.value(left)
     nodes = tuple(graph.add(a, graph.mul(b, left)) for a, b in zip(above.nodes, below.nodes, strict=True))
     fixed = told is not None or all(graph.value(node) is not None for node in below.nodes)
-    return Value(nodes, max(above.side, below.side, 1 if fixed or not env.mean else POINT_SIDE))
+    given = above.error, weaver.errors.weighed(below.error, left)
+    return Value(nodes, weaver.errors.worst(*given, NO_ERROR if fixed or not env.mean else weaver.errors.flat(_UNEVEN)))
 
 
 def _blend(work: Work) -> Rule:
@@ -129,7 +135,7 @@ def _blend(work: Work) -> Rule:
 
 def _even(weaver: Weaver, a: int, b: int) -> int:
     fixed = weaver.graph.value(a) is not None or weaver.graph.value(b) is not None
-    return 1 if fixed else POINT_SIDE
+    return NO_ERROR if fixed else weaver.errors.flat(_UNEVEN)
 
 
 def _screen(weaver: Weaver, a: int, b: int) -> tuple[int, int]:
@@ -144,7 +150,7 @@ def _hard(weaver: Weaver, a: int, b: int) -> tuple[int, int]:
     dark = graph.mul(a, twice)
     over = graph.plus(twice, -1.0)
     light = graph.sub(graph.add(a, over), graph.mul(a, over))
-    return graph.pick(graph.node(Code.LESS, b, graph.constant(0.5)), dark, light), POINT_SIDE
+    return graph.pick(graph.node(Code.LESS, b, graph.constant(0.5)), dark, light), weaver.errors.flat(_UNEVEN)
 
 
 def _overlay(weaver: Weaver, a: int, b: int) -> tuple[int, int]:
@@ -160,23 +166,23 @@ def _soft(weaver: Weaver, a: int, b: int) -> tuple[int, int]:
     high = graph.pick(graph.node(Code.LESS_EQUAL, a, graph.constant(0.25)), bent, graph.node(Code.SQRT, a))
     dark = graph.add(a, graph.mul(way, graph.sub(a, square)))
     light = graph.add(a, graph.mul(way, graph.sub(high, a)))
-    return graph.pick(graph.node(Code.LESS, b, graph.constant(0.5)), dark, light), POINT_SIDE
+    return graph.pick(graph.node(Code.LESS, b, graph.constant(0.5)), dark, light), weaver.errors.flat(_UNEVEN)
 
 
 def _difference(weaver: Weaver, a: int, b: int) -> tuple[int, int]:
-    return weaver.graph.node(Code.ABS, weaver.graph.sub(a, b)), POINT_SIDE
+    return weaver.graph.node(Code.ABS, weaver.graph.sub(a, b)), weaver.errors.flat(_UNEVEN)
 
 
 def _dodge(weaver: Weaver, a: int, b: int) -> tuple[int, int]:
     graph = weaver.graph
     left = graph.most(graph.sub(graph.constant(1.0), b), graph.constant(1e-6))
-    return graph.within(graph.div(a, left)), POINT_SIDE
+    return graph.within(graph.div(a, left)), weaver.errors.flat(_UNEVEN)
 
 
 def _burn(weaver: Weaver, a: int, b: int) -> tuple[int, int]:
     graph, one = weaver.graph, weaver.graph.constant(1.0)
     dark = graph.within(graph.div(graph.sub(one, a), graph.most(b, graph.constant(1e-6))))
-    return graph.sub(one, dark), POINT_SIDE
+    return graph.sub(one, dark), weaver.errors.flat(_UNEVEN)
 
 
 def _relief(weaver: Weaver, term: Term, env: Env) -> Value:
@@ -189,13 +195,16 @@ def _relief(weaver: Weaver, term: Term, env: Env) -> Value:
     across, down = weaver.slopes.of(height.nodes[0])
     facing = graph.sub(graph.times(down, own.cos(turn)), graph.times(across, own.sin(turn)))
     node = graph.plus(graph.mul(facing, depth.nodes[0]), 0.5)
-    return Value((graph.within(node),), max(height.side, depth.side, POINT_SIDE))
+    bent = NO_ERROR if weaver.even(height.nodes[0]) else weaver.errors.flat(_UNEVEN)
+    return Value((graph.within(node),), weaver.errors.worst(height.error, depth.error, bent))
 
 
 def _slope(axis: int) -> Rule:
     def rule(weaver: Weaver, term: Term, env: Env) -> Value:
         value = weaver.number(term.parts[0], env.point)
-        return Value((weaver.slopes.of(value.nodes[0])[axis],), max(value.side, POINT_SIDE))
+        return Value(
+            (weaver.slopes.of(value.nodes[0])[axis],), weaver.errors.worst(value.error, weaver.errors.flat(_UNEVEN))
+        )
 
     return rule
 

@@ -16,7 +16,7 @@ from engine.texture.expression.written import (
     WrittenText,
     is_colour,
 )
-from engine.texture.expression.written_ink import Expression, woven_line
+from engine.texture.expression.written_ink import Expression, woven_line, woven_program
 
 PERIOD = 64.0  # pixels, usually
 PERIOD_LEAST, PERIOD_MOST = 2.0**-10, 2.0**40
@@ -74,6 +74,8 @@ def check_woven(text: str, values: Values, seed: int = 0, period: float = PERIOD
     """Weaves a text from near and far.  WrittenError if it cannot be, or is too dear."""
     for finer in (0, _NEAR):
         cost = woven_line(text, values, seed, finer, period).cost
+        if cost <= COST_MOST:
+            cost = woven_program(text, values, seed, finer, period).cost
         if cost > COST_MOST:
             told = f"{cost / 1000.0:.0f} microseconds a pixel"
             raise WrittenError((1, 1), told, f"{COST_MOST / 1000.0:.0f} at most: fewer octaves, lines or samples")

@@ -13,19 +13,26 @@ from engine.numeric.address import Rect
 from engine.texture.expression.language import read
 from engine.texture.expression.placing.placed_scene import drawn_plainly
 from engine.texture.expression.programs import Program
+from engine.texture.expression.written import samples_told
 from engine.texture.expression.written_ink import Expression, pixels, woven_program
 
 
 @dataclass(frozen=True, slots=True)
 class LineLook:
     """A line: its `name`, "" if it has none, the row of the text it begins in, from 1; whether it is `coloured`; the
-    `samples` a pixel that its mean takes; `cost`: nanoseconds a pixel, about, with all that it refers to."""
+    `samples` a pixel that its mean takes, 0 where each pixel takes as many as it needs, from 1 to 16; `cost`:
+    nanoseconds a pixel, about, with all that it refers to."""
 
     name: str
     row: int
     coloured: bool
     samples: int
     cost: float
+
+    @property
+    def told(self) -> str:
+        """Tells the samples in words."""
+        return samples_told(self.samples)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -46,7 +53,8 @@ def line_look(made: Expression, number: int, level: int) -> LineLook:
     """Returns what a line, counted from 0, is at a level."""
     written, found = read(made.text), _line(made, number, level)
     line = written.lines[number]
-    return LineLook(line.name, written.place(line.at)[0], found.channels == 4, found.side * found.side, found.cost)
+    samples = found.side**2 if found.finer is None else 0
+    return LineLook(line.name, written.place(line.at)[0], found.channels == 4, samples, found.cost)
 
 
 def line_planes(made: Expression, number: int, level: int, rect: Rect) -> np.ndarray:

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from engine.numeric import elementary
 from engine.texture.expression.codes import COST, Code
 
-NODES_MOST = 3000  # operations of one texture
+NODES_MOST = 5000  # operations of one texture
+NO_ERROR = 2  # the node of 0, in every graph
 
 
 class TooLarge(ValueError):
@@ -74,6 +75,7 @@ class Graph:
         self._known: dict[tuple[object, ...], int] = {}
         self.x, self.y = self.node(Code.X), self.node(Code.Y)
         self.ways = {self.x: (1.0, 0.0), self.y: (0.0, 1.0)}  # of what is told by place: how fast it rises
+        assert self.constant(0.0) == NO_ERROR
 
     def node(self, code: int, *parts: int, numbers: tuple[float, ...] = (), key: tuple[int, ...] = (), kind: int = 0,
              slope: int = 0) -> int:  # fmt: skip

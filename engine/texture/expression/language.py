@@ -45,13 +45,13 @@ def weave(written: WrittenText, setting: Setting, line: int = -1) -> Woven:
     if not written.follows:
         weaver = Weaver(written, setting, _RULES)
         value = last_line(weaver, weaver.here, line)
-        return Woven(weaver.graph, value, cost_of(weaver.graph, value.nodes) * value.side**2)
+        return Woven(weaver.graph, value, weaver.errors.rough, cost_of(weaver.graph, (*value.nodes, value.error)))
     whole = _whole(written.text, tuple(sorted(setting.values.items())), setting.seed)
     scene = ThingScene(whole, False, None, True)
     weaver = Weaver(written, setting, _RULES, scene)
     value = last_line(weaver, weaver.here, line)
-    cost = cost_of(weaver.graph, value.nodes) * value.side**2 + cost_of_things(whole)
-    return Woven(weaver.graph, value, cost, whole, tuple(scene.takes))
+    cost = cost_of(weaver.graph, value.nodes) + cost_of_things(whole)
+    return Woven(weaver.graph, value, weaver.errors.rough, cost, whole, tuple(scene.takes))
 
 
 @lru_cache(64)

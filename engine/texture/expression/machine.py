@@ -233,17 +233,9 @@ def _step(
 
 
 @inner_uncounted
-def _placed(op: np.ndarray, x: np.ndarray, y: float, picture: np.ndarray, step: int, out: np.ndarray) -> None:
-    """Fills a row with what is known of its place: x, y, or a row of a picture."""
-    if op[0] == _X:
-        for i in range(out.size):
-            out[i] = x[i * step]
-    elif op[0] == _Y:
-        for i in range(out.size):
-            out[i] = y
-    else:
-        for i in range(out.size):
-            out[i] = picture[i * step]
+def _copied(row: np.ndarray, out: np.ndarray) -> None:
+    for i in range(out.size):
+        out[i] = row[i]
 
 
 @inner_uncounted
@@ -256,25 +248,29 @@ def _gathered(value: np.ndarray, part: float, out: np.ndarray) -> None:
 
 @uncounted
 def run(
-    program: np.ndarray, numbers: np.ndarray, keys: np.ndarray, xs: np.ndarray, ys: np.ndarray, shown: np.ndarray,
-    pictures: np.ndarray, registers: np.ndarray, room: np.ndarray, out: np.ndarray,
+    program: np.ndarray, numbers: np.ndarray, keys: np.ndarray, xs: np.ndarray, ys: np.ndarray, row: int,
+    shown: np.ndarray, pictures: np.ndarray, registers: np.ndarray, room: np.ndarray, out: np.ndarray,
 ) -> None:  # fmt: skip
-    """Adds the registers `shown`, a mean over the samples of each pixel, to out, float32 (channels, h, w).
+    """Adds the registers `shown`, a mean over the samples of each pixel, to out, float32 (channels, pixels).
 
-    `xs`, `ys`: places of the samples, as many along a pixel in each direction; `pictures`: float64 (n, ys, xs).
+    `xs`, `ys`: places of the samples, float64 (samples of a pixel, pixels); `row`: after so many pixels begins another
+    row of them; `pictures`: float64 (n, samples of a pixel, pixels).
     """
-    side = ys.size // out.shape[1]
-    part = 1.0 / (side * side)
-    for row in range(ys.size):
-        for left in range(0, out.shape[2], LENGTH):
-            size = min(LENGTH, out.shape[2] - left)
-            for along in range(side):
-                first = left * side + along
+    part = 1.0 / xs.shape[0]
+    for start in range(0, out.shape[1], row):
+        for left in range(start, min(start + row, out.shape[1]), LENGTH):
+            end = min(left + LENGTH, start + row, out.shape[1])
+            size = end - left
+            for s in range(xs.shape[0]):
                 for n in range(program.shape[0]):
                     op = program[n]
-                    if op[0] == _X or op[0] == _Y or op[0] > _RANDOM:
-                        _placed(op, xs[first:], ys[row], pictures[op[8], row, first:], side, registers[op[1], :size])
+                    if op[0] == _X:
+                        _copied(xs[s, left:end], registers[op[1], :size])
+                    elif op[0] == _Y:
+                        _copied(ys[s, left:end], registers[op[1], :size])
+                    elif op[0] > _RANDOM:
+                        _copied(pictures[op[8], s, left:end], registers[op[1], :size])
                     else:
                         _step(op, numbers, keys, registers, size, room)
                 for c in range(shown.size):
-                    _gathered(registers[shown[c], :size], part, out[c, row // side, left : left + size])
+                    _gathered(registers[shown[c], :size], part, out[c, left:end])

@@ -8,9 +8,11 @@ from engine.numeric import elementary
 from engine.numeric.hashing import MASK32, fold_key
 from engine.texture.expression import cell_rows
 from engine.texture.expression.codes import Code
+from engine.texture.expression.graph import NO_ERROR
 from engine.texture.expression.noise_rows import CELLS_SEEN
+from engine.texture.expression.sampling.errors import FEW_FROM
 from engine.texture.expression.spreads import Spread, spread_within, summed_up
-from engine.texture.expression.weaving import Env, Rule, Value, Weaver, side_for
+from engine.texture.expression.weaving import Env, Rule, Value, Weaver
 from engine.texture.expression.written import Term
 
 _DOMAIN = 0x78707273  # tells these hashes from those of other textures
@@ -32,14 +34,15 @@ _CELLS_FADE: tuple[
     (0.118, 0.4, 2.2, (0.1, 0.7)),
     (0.283, 0.85, 1.8, (0.0, 0.01)),
 )
-_CELLS_SIDES = (0.28, 0.8, 2.5)  # of what they vary within a sample: errors that take more samples
+_CELLS_ERRORS = (0.28, 0.8, 2.5)  # of what they vary within a sample
+_SEES = 0.75  # of its width: how far an edge may be that a sample sees
 _SEEN, _UNSEEN = 2.0, 8.0  # cells across a sample, between which a fold fades to its mean
 
 
 def _place(weaver: Weaver, term: Term, env: Env, count: int = 2) -> tuple[list[int], int]:
-    """Returns the nodes of the first values of a function, and the samples they take."""
+    """Returns the nodes of the first values of a function, and their error."""
     values = [weaver.number(part, env.point) for part in term.parts[:count]]
-    return [value.nodes[0] for value in values], max(value.side for value in values)
+    return [value.nodes[0] for value in values], weaver.errors.worst(*(value.error for value in values))
 
 
 def _optional(weaver: Weaver, term: Term, env: Env, at: int, usual: float, bounds: tuple[float, float]) -> float:
@@ -116,8 +119,11 @@ def _level(weaver: Weaver, spread: Spread) -> int:
 
 
 def _noise(weaver: Weaver, term: Term, env: Env) -> Value:
-    place, side = _place(weaver, term, env)
-    return Value((weaver.graph.plus(_noises(weaver, place, _seed(weaver, term, env, 2), [(1.0, LOUD)]), 0.5),), side)
+    place, error = _place(weaver, term, env)
+    return Value(
+        (weaver.graph.plus(_noises(weaver, place, _seed(weaver, term, env, 2), [(1.0, LOUD)]), 0.5),),
+        weaver.errors.bounded(error),
+    )
 
 
 def _octaves(weaver: Weaver, term: Term, env: Env) -> tuple[list[tuple[float, float]], int]:
@@ -136,21 +142,21 @@ def _octaves(weaver: Weaver, term: Term, env: Env) -> tuple[list[tuple[float, fl
 
 
 def _fbm(weaver: Weaver, term: Term, env: Env) -> Value:
-    place, side = _place(weaver, term, env)
+    place, error = _place(weaver, term, env)
     octaves, seed = _octaves(weaver, term, env)
     power = math.sqrt(sum(gain * gain for _, gain in octaves))
     node = _noises(weaver, place, seed, [(finer, LOUD * gain / power) for finer, gain in octaves])
-    return Value((weaver.graph.plus(node, 0.5),), side)
+    return Value((weaver.graph.plus(node, 0.5),), weaver.errors.bounded(error))
 
 
 def _folded(ridged: bool) -> Rule:
     """Octaves of noise folded where they pass through 0; each fades to its mean where it is too fine."""
 
     def rule(weaver: Weaver, term: Term, env: Env) -> Value:
-        place, side = _place(weaver, term, env)
+        place, error = _place(weaver, term, env)
         octaves, seed = _octaves(weaver, term, env)
         graph, wide = weaver.graph, _told_width(weaver, place, _widths(weaver, place))
-        total, sides, all_ = graph.constant(0.0), [side], sum(gain for _, gain in octaves)
+        total, errors, all_ = graph.constant(0.0), [weaver.errors.bounded(error)], sum(gain for _, gain in octaves)
         for n, (finer, gain) in enumerate(octaves):
             mean = graph.constant(_RIDGE if ridged else _TURBULENCE)
             seen = min(max((_UNSEEN - wide * finer * _CELLS) / (_UNSEEN - _SEEN), 0.0), 1.0)
@@ -164,17 +170,18 @@ def _folded(ridged: bool) -> Rule:
                         graph.add(graph.times(fold, -2.0 * _STEEP), graph.times(square, _STEEP * _STEEP)), 1.0
                     )
                 mean = graph.blend(mean, fold, graph.constant(seen))
-                sides.append(side_for(0.8 * spread.within * seen * gain / all_))
+                errors.append(weaver.errors.at_edge(own, 0.8 * spread.within * seen * gain / all_, NO_ERROR))
             total = graph.add(total, graph.times(mean, gain / all_))
-        return Value((total,), max(sides))
+        return Value((total,), weaver.errors.worst(*errors))
 
     return rule
 
 
 def _white(weaver: Weaver, term: Term, env: Env) -> Value:
-    place, side = _place(weaver, term, env)
+    place, error = _place(weaver, term, env)
     made = white(weaver, place, _seed(weaver, term, env, 2), env)
-    return Value((made,), side if env.mean else max(side, side_for(weaver.spreads.of(made).within)))
+    own = NO_ERROR if env.mean else weaver.errors.worst(*(weaver.errors.jump(one) for one in place))
+    return Value((made,), weaver.errors.worst(weaver.errors.bounded(error), own))
 
 
 def white(weaver: Weaver, place: list[int], seed: int, env: Env) -> int:
@@ -205,14 +212,20 @@ def half_white(weaver: Weaver, place: list[int], which: tuple[int, int], about: 
 
 def _cells(kind: int) -> Rule:
     def rule(weaver: Weaver, term: Term, env: Env) -> Value:
-        place, side = _place(weaver, term, env)
+        place, error = _place(weaver, term, env)
         jitter = _optional(weaver, term, env, 2, 1.0, (0.0, 1.0))
         key, widths = _key(weaver, Code.CELLS, _seed(weaver, term, env, 3)) & MASK32, _widths(weaver, place)
         node = weaver.graph.node(Code.CELLS, *place, *widths, numbers=(jitter,), key=(key,), kind=kind)
         deviation, half, falls, seen = _CELLS_FADE[kind]
         spread = spread_within(deviation, _told_width(weaver, place, widths), half, falls, seen)
         weaver.spreads.told[node] = spread
-        return Value((node,), max(side, side_for(spread.within * _CELLS_SIDES[kind])))
+        own = NO_ERROR
+        weaver.errors.flat(spread.within * _CELLS_ERRORS[kind])
+        if kind == cell_rows.RANDOM and spread.within > FEW_FROM:
+            edge = weaver.graph.node(Code.CELLS, *place, *widths, numbers=(jitter,), key=(key,), kind=cell_rows.EDGE)
+            near = weaver.graph.node(Code.LESS, edge, weaver.graph.times(weaver.graph.most(*widths), _SEES))
+            own = weaver.graph.pick(near, weaver.graph.constant(1.0), NO_ERROR)
+        return Value((node,), weaver.errors.worst(weaver.errors.bounded(error), own))
 
     return rule
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 
 from engine.texture.expression.codes import Code
+from engine.texture.expression.graph import NO_ERROR
 from engine.texture.expression.noise_words import half_white, white
-from engine.texture.expression.weaving import JUMP_SIDE, POINT_SIDE, Env, Rule, Value, Weaver, aslant, side_for
+from engine.texture.expression.sampling.errors import FEW_FROM
+from engine.texture.expression.weaving import Env, Rule, Value, Weaver, aslant
 from engine.texture.expression.written import Term
 
 _GAP, _SHIFT, _RADIUS = 0.1, 0.5, 0.3
 _HEX = math.sqrt(3.0)
+_SEES = 0.75  # of its width: how far an edge may be that a sample sees
 _FINE, _COARSE = 0.03, 1.6  # units a pixel, between which patterns that go by their slopes take more samples
 
 
@@ -18,9 +21,9 @@ def _numbers(weaver: Weaver, term: Term, env: Env, usual: tuple[float, ...]) -> 
     """Returns nodes of a function's values; those that are left out take what is usual, of the last ones."""
     values = [weaver.number(part, env.point) for part in term.parts]
     nodes = [value.nodes[0] for value in values]
-    side = max(value.side for value in values)
+    error = weaver.errors.bounded(weaver.errors.worst(*(value.error for value in values)))
     missing = PATTERN_WORDS[term.operation][1] - len(nodes)
-    return nodes + [weaver.graph.constant(one) for one in usual[len(usual) - missing :]], side
+    return nodes + [weaver.graph.constant(one) for one in usual[len(usual) - missing :]], error
 
 
 def pulse(weaver: Weaver, t: int, part: int) -> int:
@@ -48,17 +51,17 @@ def _rest(weaver: Weaver, node: int) -> tuple[int, int]:
 
 
 def _stripes(weaver: Weaver, term: Term, env: Env) -> Value:
-    (t, part), side = _numbers(weaver, term, env, (0.5,))
-    return Value((pulse(weaver, t, _bounded(weaver, part)),), side)
+    (t, part), error = _numbers(weaver, term, env, (0.5,))
+    return Value((pulse(weaver, t, _bounded(weaver, part)),), error)
 
 
 def _squares(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y), side = _numbers(weaver, term, env, ())
+    (x, y), error = _numbers(weaver, term, env, ())
     graph, half = weaver.graph, weaver.graph.constant(0.5)
     waves = [graph.plus(graph.times(pulse(weaver, graph.times(t, 0.5), half), 2.0), -1.0) for t in (x, y)]
     aslant = any(0.0 not in [graph.value(one) for one in weaver.slopes.of(t)] for t in (x, y))
-    side = max(side, _side(weaver, (x, y)) if aslant else 1)
-    return Value((graph.plus(graph.times(graph.mul(*waves), 0.5), 0.5),), side)
+    error = weaver.errors.worst(error, _uneven(weaver, (x, y)) if aslant else NO_ERROR)
+    return Value((graph.plus(graph.times(graph.mul(*waves), 0.5), 0.5),), error)
 
 
 def _bar(weaver: Weaver, t: int, gap: int) -> int:
@@ -69,14 +72,14 @@ def _bar(weaver: Weaver, t: int, gap: int) -> int:
 
 
 def _tiles(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y, gap), side = _numbers(weaver, term, env, (_GAP,))
+    (x, y, gap), error = _numbers(weaver, term, env, (_GAP,))
     gap = _bounded(weaver, gap)
-    return Value((weaver.graph.mul(_bar(weaver, x, gap), _bar(weaver, y, gap)),), side)
+    return Value((weaver.graph.mul(_bar(weaver, x, gap), _bar(weaver, y, gap)),), error)
 
 
 def _bricks(weaver: Weaver, term: Term, env: Env) -> Value:
     """Every other course is shifted: what the pixel holds of these and of those, each times its upright joints."""
-    (x, y, gap, shift), side = _numbers(weaver, term, env, (_GAP, _SHIFT))
+    (x, y, gap, shift), error = _numbers(weaver, term, env, (_GAP, _SHIFT))
     graph, gap = weaver.graph, _bounded(weaver, gap)
     half = graph.times(graph.plus(graph.times(gap, -1.0), 1.0), 0.5)
     total = graph.constant(0.0)
@@ -84,26 +87,30 @@ def _bricks(weaver: Weaver, term: Term, env: Env) -> Value:
         rows = pulse(weaver, graph.plus(graph.times(graph.sub(y, graph.times(gap, 0.5)), 0.5), -course), half)
         along = _bar(weaver, graph.add(x, shift) if course else x, gap)
         total = graph.add(total, graph.mul(rows, along))
-    return Value((total,), side)
+    return Value((total,), error)
 
 
 def _bricks_random(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y, shift), side = _numbers(weaver, term, env, (_SHIFT,))
+    (x, y, shift), error = _numbers(weaver, term, env, (_SHIFT,))
     graph, half = weaver.graph, weaver.graph.times(y, 0.5)
     even = half_white(weaver, [x, half], (1, 1), 0.25, env)
     odd = half_white(weaver, [graph.add(x, shift), graph.plus(half, -0.5)], (2, 1), 0.25, env)
     made = graph.add(even, odd)
-    return Value((made,), side if env.mean else max(side, side_for(weaver.spreads.of(made).within)))
+    if not env.mean:
+        courses = weaver.errors.jump(y), weaver.errors.jump(x), weaver.errors.jump(graph.add(x, shift))
+        error = weaver.errors.worst(error, *courses)
+    return Value((made,), error)
 
 
 def _dots(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y, radius), side = _numbers(weaver, term, env, (_RADIUS,))
+    (x, y, radius), error = _numbers(weaver, term, env, (_RADIUS,))
     graph = weaver.graph
     near = [graph.plus(_rest(weaver, t)[1], -0.5) for t in (x, y)]
     far = graph.node(Code.SQRT, graph.add(graph.mul(near[0], near[0]), graph.mul(near[1], near[1])))
-    dot = weaver.covered(graph.sub(radius, far))
+    inside = graph.sub(radius, far)
+    dot = weaver.covered(inside)
     area = graph.within(graph.times(graph.mul(radius, radius), math.pi))
-    return Value((_unless_fine(weaver, dot, area, (x, y)),), max(side, _side(weaver, (x, y))))
+    return Value((_unless_fine(weaver, dot, area, (x, y)),), weaver.errors.worst(error, _uneven(weaver, (x, y))))
 
 
 def _unless_fine(weaver: Weaver, node: int, mean: int, place: tuple[int, int]) -> int:
@@ -113,13 +120,13 @@ def _unless_fine(weaver: Weaver, node: int, mean: int, place: tuple[int, int]) -
     return graph.blend(node, mean, graph.within(graph.plus(graph.times(wide, 2.5), -1.5)))
 
 
-def _side(weaver: Weaver, place: tuple[int, int], jumps: bool = False) -> int:
-    """Returns how many samples a pattern takes that goes by its slopes: more where the pixel is no small part of it."""
+def _uneven(weaver: Weaver, place: tuple[int, int]) -> int:
+    """Notes the error of a pattern that goes by its slopes: more where the pixel is no small part of it."""
     told = [weaver.graph.value(weaver.width(t)) for t in place]
     wide = max(one for one in told if one is not None) if None not in told else 0.1
     if wide > _COARSE:
-        return 1
-    return JUMP_SIDE if jumps or wide > 0.1 else (POINT_SIDE if wide > _FINE else 1)
+        return NO_ERROR
+    return weaver.errors.flat(2.0 * FEW_FROM if wide > _FINE else 0.0)
 
 
 def _hexagon(weaver: Weaver, x: int, y: int) -> tuple[int, int, int]:
@@ -141,21 +148,27 @@ def _hexagon(weaver: Weaver, x: int, y: int) -> tuple[int, int, int]:
 
 
 def _hexagons(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y, gap), side = _numbers(weaver, term, env, (_GAP,))
+    (x, y, gap), error = _numbers(weaver, term, env, (_GAP,))
     graph, gap = weaver.graph, _bounded(weaver, gap)
     edge, _, _ = _hexagon(weaver, x, y)
-    there = weaver.covered(graph.sub(edge, graph.times(gap, 0.5)))
+    inside = graph.sub(edge, graph.times(gap, 0.5))
+    there = weaver.covered(inside)
     rest = graph.plus(graph.times(gap, -1.0), 1.0)
-    return Value((_unless_fine(weaver, there, graph.mul(rest, rest), (x, y)),), max(side, _side(weaver, (x, y))))
+    shown = _unless_fine(weaver, there, graph.mul(rest, rest), (x, y))
+    return Value((shown,), weaver.errors.worst(error, _uneven(weaver, (x, y))))
 
 
 def _hexagons_random(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y), side = _numbers(weaver, term, env, ())
-    _, across, row = _hexagon(weaver, x, y)
+    (x, y), error = _numbers(weaver, term, env, ())
+    edge, across, row = _hexagon(weaver, x, y)
     graph = weaver.graph
     place = [graph.plus(graph.times(one, 2.0), 0.5) for one in (across, row)]
     made = white(weaver, place, 3, env)
-    return Value((_unless_fine(weaver, made, graph.constant(0.5), (x, y)),), max(side, _side(weaver, (x, y), True)))
+    _uneven(weaver, (x, y))
+    reach = graph.times(graph.most(weaver.width(x), weaver.width(y)), _SEES)
+    near = graph.pick(graph.node(Code.LESS, edge, reach), graph.constant(1.0), NO_ERROR)
+    shown = _unless_fine(weaver, made, graph.constant(0.5), (x, y))
+    return Value((shown,), weaver.errors.worst(error, near))
 
 
 PATTERN_WORDS: dict[str, tuple[int, int, Rule, str]] = {

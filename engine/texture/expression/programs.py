@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -13,6 +13,8 @@ from engine.texture.expression import machine
 from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph, Operation, needed_by
 from engine.texture.expression.noise_rows import ROOM
+from engine.texture.expression.sampling.errors import FEW_FROM, JUMP_SIDE, MANY_FROM, POINT_SIDE
+from engine.texture.expression.sampling.sample_trial import far_apart
 from engine.texture.expression.weaving import Woven
 
 WRAP = 65536  # periods, after which a texture begins anew
@@ -22,7 +24,12 @@ _EXACT = 1 << 50  # samples that floats count
 @dataclass(frozen=True, eq=False, slots=True)
 class Program:
     """What `machine.run` takes; `constants` fill the first registers; `side`: samples along a pixel; `whole`, `takes`:
-    as `Woven` has them."""
+    as `Woven` has them.
+
+    Where `finer` is told, the last plane is the error of a pixel, and finer(side) the program for those pixels that
+    take more samples, `most` along each at most; where it `compares`, all take four, and those more in which these are
+    far from one.
+    """
 
     steps: np.ndarray
     numbers: np.ndarray
@@ -34,35 +41,40 @@ class Program:
     cost: float
     whole: object | None = None
     takes: tuple[int, ...] = ()
+    finer: Callable[[int], Program] | None = None
+    compares: bool = False
+    most: int = JUMP_SIDE
 
     @property
     def channels(self) -> int:
         """Gives how many planes it makes: one of a number, four of a colour."""
-        return self.shown.size
+        return self.shown.size - (self.finer is not None)
 
-    def over(self, xs: np.ndarray, ys: np.ndarray, pictures: np.ndarray | None = None) -> np.ndarray:
-        """Returns the means over pixels: float32 (channels, h, w); `xs`, `ys` are the places of the samples."""
-        out = np.zeros((self.channels, ys.size // self.side, xs.size // self.side), np.float32)
+    def over(self, xs: np.ndarray, ys: np.ndarray, row: int, pictures: np.ndarray | None = None) -> np.ndarray:
+        """Returns the means over pixels, float32 (planes, pixels); `xs`, `ys`: the places of their samples, (samples of
+        a pixel, pixels); `row`: pixels in a row; `pictures` that it takes, (n, samples of a pixel, pixels)."""
+        out = np.zeros((self.shown.size, xs.shape[1]), np.float32)
         registers = np.zeros((self.registers, machine.LENGTH))
         registers[: self.constants.size] = self.constants[:, None]
         if pictures is None:
-            pictures = np.zeros((1, ys.size, xs.size)) if _looks(self.steps) else _NONE
+            pictures = np.zeros((1, *xs.shape)) if _looks(self.steps) else _NOTHING
         room = np.empty((5, ROOM, machine.LENGTH))
-        machine.run(self.steps, self.numbers, self.keys, xs, ys, self.shown, pictures, registers, room, out)
+        machine.run(self.steps, self.numbers, self.keys, xs, ys, row, self.shown, pictures, registers, room, out)
         return out
 
 
 _COLUMNS = 12
-_NONE = np.zeros((1, 1, 1))
+_NOTHING = np.zeros((1, 1, 1))
 
 
 def _looks(steps: np.ndarray) -> bool:
     return bool((steps[:, 0] == Code.PICTURE).any())
 
 
-def program(woven: Woven, side: int) -> Program:
-    """Returns the program that works out what was woven, with so many samples along a pixel."""
-    graph, shown = woven.graph, woven.value.nodes
+def program(woven: Woven, side: int, finer: Callable[[int], Program] | None = None, compares: bool = False) -> Program:
+    """Returns the program that works out what was woven, with so many samples along a pixel, and its error where
+    `finer` is told."""
+    graph, shown = woven.graph, (*woven.value.nodes, woven.value.error)[: None if finer else -1]
     needed = needed_by(graph, shown)
     fixed = [node for node in needed if graph.operations[node].code == Code.CONST]
     rows = {node: n for n, node in enumerate(fixed)}
@@ -94,11 +106,11 @@ def program(woven: Woven, side: int) -> Program:
             rows |= {one: row for one, row in zip(alike, made, strict=True) if one >= 0}
             free += [row for one, row in zip(alike, made, strict=True) if one < 0]
         free += [rows[part] for part in set(told.parts) if last[part] == node and part not in constant]
-    constants = np.array([graph.value(node) for node in fixed], np.float64)
     return Program(
         np.array(steps, np.int32).reshape(-1, _COLUMNS), np.array([*numbers, 0.0]), np.array([*keys, 0], np.uint32),
-        constants, max(count, 1), np.array([rows[node] for node in shown], np.int32), side, woven.cost,
-        woven.whole, woven.takes,
+        np.array([graph.value(node) for node in fixed], np.float64), max(count, 1),
+        np.array([rows[node] for node in shown], np.int32), side, woven.cost * side**2, woven.whole, woven.takes,
+        finer, compares,
     )  # fmt: skip
 
 
@@ -151,11 +163,38 @@ def make_kernels() -> None:
     """Runs the machine once, on nothing, so that its kernels are there."""
     numbers, keys = np.zeros(1), np.zeros(1, np.uint32)
     empty = Program(np.zeros((0, 10), np.int32), numbers, keys, np.ones(1), 1, np.zeros(1, np.int32), 1, 0.0)
-    empty.over(np.zeros(1), np.zeros(1))
+    empty.over(np.zeros((1, 1)), np.zeros((1, 1)), 1)
 
 
-def draw_program(made: Program, rect: Rect, period: Fraction, pictures: np.ndarray | None = None) -> np.ndarray:
+def draw_program(made: Program, rect: Rect, period: Fraction) -> np.ndarray:
     """Returns a program's means over the pixels of a rectangle: float32 (channels, h, w); `period`: pixels."""
-    xs = sample_places(rect.x0, rect.width, made.side, period)
-    ys = sample_places(rect.y0, rect.height, made.side, period)
-    return made.over(xs, ys, pictures)
+    out = made.over(*_samples(rect, made.side, period), max(rect.width, 1))
+    if made.finer is not None:
+        error, out = out[-1], out[:-1]
+        if made.compares:
+            plain, out = out, made.finer(POINT_SIDE).over(*_samples(rect, POINT_SIDE, period), max(rect.width, 1))
+            error[far_apart(plain, out)] = 1.0
+        few, many = (error >= np.float32(least) for least in (FEW_FROM, MANY_FROM))
+        if made.side > 1 or made.compares:
+            few = many
+        for side, which in ((POINT_SIDE, np.flatnonzero(few & ~many)), (JUMP_SIDE, np.flatnonzero(many))):
+            if which.size:
+                out[:, which] = _refined(made, min(side, made.most), rect, period, which)
+    return out.reshape(-1, rect.height, rect.width)
+
+
+def _refined(made: Program, side: int, rect: Rect, period: Fraction, which: np.ndarray) -> np.ndarray:
+    """Returns some pixels of a rectangle with more samples."""
+    assert made.finer is not None
+    return made.finer(side).over(*_samples(rect, side, period, which), which.size)
+
+
+def _samples(rect: Rect, side: int, period: Fraction, which: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the places of the samples of a rectangle's pixels, or some of them, row by row: each float64 (side side,
+    pixels)."""
+    xs = sample_places(rect.x0, rect.width, side, period).reshape(rect.width, side)
+    ys = sample_places(rect.y0, rect.height, side, period).reshape(rect.height, side)
+    rows, columns = np.divmod(np.arange(rect.area) if which is None else which, max(rect.width, 1))
+    right, below = np.tile(np.arange(side), side), np.repeat(np.arange(side), side)
+    found = xs[columns[None, :], right[:, None]], ys[rows[None, :], below[:, None]]
+    return np.ascontiguousarray(found[0]), np.ascontiguousarray(found[1])

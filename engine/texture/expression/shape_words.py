@@ -8,13 +8,14 @@ from dataclasses import replace
 from engine.numeric import elementary
 from engine.texture.expression.arithmetic_words import wrapped
 from engine.texture.expression.codes import Code
-from engine.texture.expression.weaving import JUMP_SIDE, POINT_SIDE, Env, Rule, Value, Weaver
+from engine.texture.expression.sampling.errors import FEW_FROM
+from engine.texture.expression.weaving import Env, Rule, Value, Weaver
 from engine.texture.expression.written import Term
 
 
 def _nodes(weaver: Weaver, term: Term, env: Env) -> tuple[list[int], int]:
     values = [weaver.number(part, env.point) for part in term.parts]
-    return [value.nodes[0] for value in values], max(value.side for value in values)
+    return [value.nodes[0] for value in values], weaver.errors.worst(*(value.error for value in values))
 
 
 def _length(weaver: Weaver, x: int, y: int) -> int:
@@ -23,17 +24,17 @@ def _length(weaver: Weaver, x: int, y: int) -> int:
 
 
 def _distance(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y), side = _nodes(weaver, term, env)
-    return Value((_length(weaver, x, y),), side)
+    (x, y), error = _nodes(weaver, term, env)
+    return Value((_length(weaver, x, y),), error)
 
 
 def _circle(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y, radius), side = _nodes(weaver, term, env)
-    return Value((weaver.graph.sub(_length(weaver, x, y), radius),), side)
+    (x, y, radius), error = _nodes(weaver, term, env)
+    return Value((weaver.graph.sub(_length(weaver, x, y), radius),), error)
 
 
 def _box(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y, width, height, *rest), side = _nodes(weaver, term, env)
+    (x, y, width, height, *rest), error = _nodes(weaver, term, env)
     graph, zero = weaver.graph, weaver.graph.constant(0.0)
     round_ = rest[0] if rest else zero
     over = [
@@ -41,17 +42,17 @@ def _box(weaver: Weaver, term: Term, env: Env) -> Value:
         for t, size in ((x, width), (y, height))
     ]
     outside = _length(weaver, *(graph.most(one, zero) for one in over))
-    return Value((graph.sub(graph.add(outside, graph.least(graph.most(*over), zero)), round_),), side)
+    return Value((graph.sub(graph.add(outside, graph.least(graph.most(*over), zero)), round_),), error)
 
 
 def _segment(weaver: Weaver, term: Term, env: Env) -> Value:
-    (x, y, x0, y0, x1, y1, *rest), side = _nodes(weaver, term, env)
+    (x, y, x0, y0, x1, y1, *rest), error = _nodes(weaver, term, env)
     graph = weaver.graph
     right, below, ex, ey = graph.sub(x, x0), graph.sub(y, y0), graph.sub(x1, x0), graph.sub(y1, y0)
     squared = graph.most(graph.add(graph.mul(ex, ex), graph.mul(ey, ey)), graph.constant(1e-18))
     part = graph.within(graph.div(graph.add(graph.mul(right, ex), graph.mul(below, ey)), squared))
     far = _length(weaver, graph.sub(right, graph.mul(ex, part)), graph.sub(below, graph.mul(ey, part)))
-    return Value((graph.sub(far, graph.times(rest[0], 0.5)) if rest else far,), side)
+    return Value((graph.sub(far, graph.times(rest[0], 0.5)) if rest else far,), error)
 
 
 def _sector(weaver: Weaver, x: int, y: int, corners: int) -> tuple[int, int]:
@@ -66,63 +67,67 @@ def _sector(weaver: Weaver, x: int, y: int, corners: int) -> tuple[int, int]:
 
 def _polygon(weaver: Weaver, term: Term, env: Env) -> Value:
     corners = int(weaver.fixed(term.parts[2], env, 3, 64, True))
-    (x, y, _, radius), side = _nodes(weaver, term, env)
+    (x, y, _, radius), error = _nodes(weaver, term, env)
     graph, half = weaver.graph, math.pi / corners
     along, away = _sector(weaver, x, y, corners)
     edge = graph.add(graph.times(along, elementary.cos(half)), graph.times(away, elementary.sin(half)))
-    return Value((graph.sub(edge, graph.times(radius, elementary.cos(half))),), side)
+    return Value((graph.sub(edge, graph.times(radius, elementary.cos(half))),), error)
 
 
 def _star(weaver: Weaver, term: Term, env: Env) -> Value:
     corners = int(weaver.fixed(term.parts[2], env, 3, 64, True))
-    (x, y, _, radius, inner), side = _nodes(weaver, term, env)
+    (x, y, _, radius, inner), error = _nodes(weaver, term, env)
     graph, half = weaver.graph, math.pi / corners
     along, away = _sector(weaver, x, y, corners)
     ex, ey = graph.sub(graph.times(inner, elementary.cos(half)), radius), graph.times(inner, elementary.sin(half))
     long = graph.most(_length(weaver, ex, ey), graph.constant(1e-9))
     beside = graph.sub(graph.mul(graph.sub(along, radius), ey), graph.mul(away, ex))
-    return Value((graph.div(beside, long),), side)
+    return Value((graph.div(beside, long),), error)
 
 
 def _fill(weaver: Weaver, term: Term, env: Env) -> Value:
-    (far,), side = _nodes(weaver, term, env)
-    return Value((weaver.covered(weaver.graph.times(far, -1.0)),), max(side, _corners(weaver, far)))
+    (far,), error = _nodes(weaver, term, env)
+    away = weaver.graph.times(far, -1.0)
+    return Value((weaver.covered(away),), weaver.errors.at_edge(away, _corners(weaver, far), error))
 
 
-def _corners(weaver: Weaver, far: int) -> int:
-    """Returns the samples that a shape takes: its corners and bends have no slope of their own."""
-    return 1 if weaver.even(far) else POINT_SIDE
+def _corners(weaver: Weaver, far: int) -> float:
+    """Returns the error of a shape along its edge: its corners and bends have no slope of their own."""
+    return 0.0 if weaver.even(far) else 2.0 * FEW_FROM
 
 
 def _outline(weaver: Weaver, term: Term, env: Env) -> Value:
-    (far, thick), side = _nodes(weaver, term, env)
+    (far, thick), error = _nodes(weaver, term, env)
     graph, half = weaver.graph, weaver.graph.times(thick, 0.5)
-    inner, outer = weaver.covered(graph.sub(far, half)), weaver.covered(graph.add(far, half))
-    return Value((graph.sub(outer, inner),), max(side, _corners(weaver, far)))
+    ends, own = (graph.sub(far, half), graph.add(far, half)), _corners(weaver, far)
+    inner, outer = (weaver.covered(end) for end in ends)
+    return Value(
+        (graph.sub(outer, inner),), weaver.errors.worst(*(weaver.errors.at_edge(end, own, error) for end in ends))
+    )
 
 
 def _glow(weaver: Weaver, term: Term, env: Env) -> Value:
-    (far, reach), side = _nodes(weaver, term, env)
+    (far, reach), error = _nodes(weaver, term, env)
     graph = weaver.graph
     left = graph.plus(graph.times(graph.div(far, reach), -1.0), 1.0)
-    return Value((graph.sub(weaver.ramped(left), weaver.ramped(graph.plus(left, -1.0))),), side)
+    return Value((graph.sub(weaver.ramped(left), weaver.ramped(graph.plus(left, -1.0))),), weaver.errors.bounded(error))
 
 
 def _join(weaver: Weaver, term: Term, env: Env) -> Value:
     """With a third value, the two flow into one another where they are as near as that."""
-    (a, b, *rest), side = _nodes(weaver, term, env)
+    (a, b, *rest), error = _nodes(weaver, term, env)
     graph = weaver.graph
     if not rest:
-        return Value((graph.least(a, b),), side)
+        return Value((graph.least(a, b),), error)
     soft = graph.most(rest[0], graph.constant(1e-9))
     near = graph.sub(soft, graph.node(Code.ABS, graph.sub(a, b)))
     over = graph.div(graph.most(near, graph.constant(0.0)), soft)
-    return Value((graph.sub(graph.least(a, b), graph.times(graph.mul(graph.mul(over, over), soft), 0.25)),), side)
+    return Value((graph.sub(graph.least(a, b), graph.times(graph.mul(graph.mul(over, over), soft), 0.25)),), error)
 
 
 def _cut(weaver: Weaver, term: Term, env: Env) -> Value:
-    (a, b), side = _nodes(weaver, term, env)
-    return Value((weaver.graph.most(a, weaver.graph.times(b, -1.0)),), side)
+    (a, b), error = _nodes(weaver, term, env)
+    return Value((weaver.graph.most(a, weaver.graph.times(b, -1.0)),), error)
 
 
 # ---- elsewhere -------------------------------------------------------------------------------------------------------
@@ -136,42 +141,42 @@ def _moved(weaver: Weaver, term: Term, env: Env, x: int, y: int) -> Value:
 def _given(weaver: Weaver, term: Term, env: Env) -> tuple[list[int], int]:
     """Returns the nodes of all values but the first."""
     values = [weaver.number(part, env.point) for part in term.parts[1:]]
-    return [value.nodes[0] for value in values], max(value.side for value in values)
+    return [value.nodes[0] for value in values], weaver.errors.worst(*(value.error for value in values))
 
 
 def _warp(weaver: Weaver, term: Term, env: Env) -> Value:
-    (right, below), side = _given(weaver, term, env)
+    (right, below), error = _given(weaver, term, env)
     found = _moved(weaver, term, env, weaver.graph.add(env.x, right), weaver.graph.add(env.y, below))
-    return replace(found, side=max(found.side, side))
+    return replace(found, error=weaver.errors.worst(found.error, error))
 
 
 def _shift(weaver: Weaver, term: Term, env: Env) -> Value:
-    (right, below), side = _given(weaver, term, env)
+    (right, below), error = _given(weaver, term, env)
     found = _moved(weaver, term, env, weaver.graph.sub(env.x, right), weaver.graph.sub(env.y, below))
-    return replace(found, side=max(found.side, side))
+    return replace(found, error=weaver.errors.worst(found.error, error))
 
 
 def _rotate(weaver: Weaver, term: Term, env: Env) -> Value:
-    (degrees,), side = _given(weaver, term, env)
+    (degrees,), error = _given(weaver, term, env)
     graph = weaver.graph
     turn = graph.times(degrees, math.pi / 180.0)
     cos, sin = graph.node(Code.COS, turn), graph.node(Code.SIN, turn)
     x = graph.add(graph.mul(env.x, cos), graph.mul(env.y, sin))
     y = graph.sub(graph.mul(env.y, cos), graph.mul(env.x, sin))
     found = _moved(weaver, term, env, x, y)
-    return replace(found, side=max(found.side, side))
+    return replace(found, error=weaver.errors.worst(found.error, error))
 
 
 def _scale(weaver: Weaver, term: Term, env: Env) -> Value:
-    sizes, side = _given(weaver, term, env)
+    sizes, error = _given(weaver, term, env)
     graph = weaver.graph
     found = _moved(weaver, term, env, graph.div(env.x, sizes[0]), graph.div(env.y, sizes[-1]))
-    return replace(found, side=max(found.side, side))
+    return replace(found, error=weaver.errors.worst(found.error, error))
 
 
 def _repeat(weaver: Weaver, term: Term, env: Env) -> Value:
     """Within a repeat x and y go from -0.5 to 0.5, and `random` has other numbers in each."""
-    counts, side = _given(weaver, term, env)
+    counts, error = _given(weaver, term, env)
     graph = weaver.graph
     across, down = graph.mul(env.x, counts[0]), graph.mul(env.y, counts[min(1, len(counts) - 1)])
     row = graph.node(Code.FLOOR, down)
@@ -181,9 +186,9 @@ def _repeat(weaver: Weaver, term: Term, env: Env) -> Value:
     places = [graph.plus(graph.sub(*pair), -0.5) for pair in ((across, column), (down, row))]
     for node, whole in zip(places, (across, down), strict=True):
         weaver.spreads.told[node] = wrapped(weaver, whole)
-    wide = max(weaver.spreads.of(node).within for node in places)
+    edges = weaver.errors.jump(across), weaver.errors.jump(down)
     found = weaver.value(term.parts[0], replace(env, x=places[0], y=places[1], cell=(column, row)))
-    return replace(found, side=max(found.side, side, POINT_SIDE if wide < 0.03 else JUMP_SIDE))
+    return replace(found, error=weaver.errors.worst(found.error, error, *edges))
 
 
 SHAPE_WORDS: dict[str, tuple[int, int, Rule, str]] = {

@@ -2,7 +2,9 @@
 
 A part is asked for in one of two ways. Its *mean* over the pixel is what is shown: sums and multiples are exact, of
 jumps and bends what the pixel holds of each side. Its value at a *point* is what something else is made of, as a place
-or the height that a threshold cuts.  What neither way is exact of asks for more samples a pixel.
+or the height that a threshold cuts.  What neither way is exact of is *rough*: how many samples a pixel takes follows
+from how far they are from fewer, which is measured at some pixels.  Jumps of what is made of points have an *error*,
+worked out for each pixel beside it, as much as it counts there: those pixels alone take more.
 
 A line is a function of the place: where it is turned, warped or repeated, it is asked for once more, elsewhere.
 """
@@ -17,32 +19,26 @@ from typing import NoReturn, Protocol
 from engine.numeric.formula import CONSTANTS
 from engine.numeric.reader import quoted
 from engine.texture.expression.codes import Code
-from engine.texture.expression.graph import Graph, TooLarge
+from engine.texture.expression.graph import NO_ERROR, Graph, TooLarge
+from engine.texture.expression.sampling.errors import Errors
 from engine.texture.expression.slopes import Slopes
 from engine.texture.expression.spreads import Spreads
 from engine.texture.expression.written import PICK, PRESSURE, SLIDER, STROKE_NAMES, Term, WrittenError, WrittenText
 
 NESTED_MOST = 160  # parts within one another, lines that others refer to counted in
-POINT_SIDE, JUMP_SIDE = 2, 4  # samples along a pixel where a mean is not exact, and where it jumps
 _NARROW = 1e-9
 _GAUSS = 0.28867513459481287  # of an interval: two points by which cubic functions have their mean
 _NOISY = 10.3  # a box so wide, squared, is folded as noise of variance 1 is
 _BELL = 0.84  # of the widths of a box: a smooth step so steep is nearly that of noise of its deviation
-_FEW, _MANY = 0.01, 0.045  # errors of a mean, up to which one sample, and four, are enough
-
-
-def side_for(error: float) -> int:
-    """Returns how many samples along a pixel a mean takes that is wrong by so much."""
-    return 1 if error < _FEW else (POINT_SIDE if error < _MANY else JUMP_SIDE)
 
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """`nodes`: one of a number, four of a colour (red, green, blue times alpha, and alpha); `side`: samples along a
-    pixel that it takes."""
+    """`nodes`: one of a number, four of a colour (red, green, blue times alpha, and alpha); `error`: the node of how
+    far, about, it is from what it should be."""
 
     nodes: tuple[int, ...]
-    side: int = 1
+    error: int = NO_ERROR
 
     @property
     def coloured(self) -> bool:
@@ -98,15 +94,21 @@ class PlacedWords(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Woven:
-    """What a text, or one of its lines, is at a level: `value`, the nodes of `graph` that are shown, and the samples
-    along a pixel; `cost`: nanoseconds a pixel, about; `whole`, `takes`: what holds the things that are placed, and the
-    pictures that they come as."""
+    """What a text, or one of its lines, is at a level: `value`, the nodes of `graph` that are shown, and that of the
+    error; `rough`: whether how many samples it takes is to be measured; `cost`: nanoseconds a sample, about; `whole`,
+    `takes`: what holds the things that are placed, and the pictures that they come as."""
 
     graph: Graph
     value: Value
+    rough: bool
     cost: float
     whole: object | None = None
     takes: tuple[int, ...] = ()
+
+    @property
+    def jumps(self) -> bool:
+        """Tells whether some pixels take more samples than others."""
+        return self.graph.value(self.value.error) is None
 
 
 class Weaver:
@@ -122,6 +124,7 @@ class Weaver:
         self.slopes, self.spreads = Slopes(self.graph), Spreads(self.graph, setting.width)
         self._lines = {line.name: n for n, line in enumerate(written.lines)}
         self._known: dict[tuple[int, Env], Value] = {}
+        self.errors = Errors(self.graph, self.width)
         self.deep = 0
         zero = self.graph.constant(0.0)
         self.here = Env(self.graph.x, self.graph.y, (zero, zero) if scene is None else scene.cell(self.graph))
@@ -169,7 +172,7 @@ class Weaver:
         """Returns a value as a colour: a number is a grey."""
         if value.coloured:
             return value
-        return Value((*value.nodes * 3, self.graph.constant(1.0)), value.side)
+        return Value((*value.nodes * 3, self.graph.constant(1.0)), value.error)
 
     def fixed(self, term: Term, env: Env, least: float, most: float, whole: bool = False) -> float:
         """Returns a part that must be a number which is the same everywhere."""
@@ -247,6 +250,7 @@ def woven_within(weaver: Weaver, written: WrittenText) -> Weaver:
     other = Weaver(written, replace(weaver.setting, values={}), weaver.rules)
     other.graph, other.slopes, other.spreads = weaver.graph, weaver.slopes, weaver.spreads
     other.here, other.deep, other.scene = weaver.here, weaver.deep, weaver.scene
+    other.errors = weaver.errors
     return other
 
 

@@ -289,3 +289,8 @@ def close_to(word: str, known: list[str]) -> str:
 def is_colour(text: str) -> bool:
     """Tells whether a text is "#rrggbb" or "#rrggbbaa"."""
     return _COLOUR.fullmatch(text) is not None
+
+
+def samples_told(samples: int) -> str:
+    """Tells in words how many samples a pixel takes: 0 where each takes as many as it needs."""
+    return {0: "1 to 16 samples", 1: "1 sample"}.get(samples, f"{samples} samples")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -18,6 +18,8 @@ from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.texture.expression.language import read, weave
 from engine.texture.expression.placing.placed_scene import drawn_plainly
 from engine.texture.expression.programs import Program, program
+from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
+from engine.texture.expression.sampling.sample_trial import measured_side, samples_of
 from engine.texture.expression.weaving import Setting, Woven
 from engine.texture.expression.written import PRESSURE
 
@@ -159,6 +161,25 @@ def woven_program(
 ) -> Program:
     """Returns the program of a line of a text: what it is for the samples that it asks for."""
     about = (text, values, seed, finer, period, line)
-    woven = woven_line(*about)
-    side = woven.value.side
-    return program(woven if side == 1 else woven_line(*about, side), side)
+    woven, made, many = woven_line(*about), partial(_sampled, *about), pixels(period, max(finer, _COARSEST))
+    if woven.whole is not None:
+        return made(POINT_SIDE if woven.rough or woven.jumps else 1)
+    side = measured_side(made, many) if woven.rough else 1
+    if not woven.jumps and side < JUMP_SIDE:
+        return made(side)
+    compares = side == JUMP_SIDE
+    found = program(
+        woven_line(*about, POINT_SIDE) if side == POINT_SIDE else woven, 1 if compares else side, made, compares
+    )
+    samples, often = samples_of(found, many)
+    if often and side == POINT_SIDE:
+        return made(side)
+    return replace(found, cost=woven.cost * samples, most=POINT_SIDE if often and not compares else JUMP_SIDE)
+
+
+@lru_cache(_MEMO)
+def _sampled(
+    text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, line: int, side: int
+) -> Program:
+    """Returns the program of a line for so many samples along each pixel."""
+    return program(woven_line(text, values, seed, finer, period, line, side), side)

@@ -26,6 +26,6 @@ def named_texture(read: Callable[[str], WrittenText]) -> Rule:
             value = last_line(woven_within(weaver, read(found.text)), there)
         except WrittenError as error:
             weaver.refuse(term, error.found, error.expected)
-        return replace(value, side=max(value.side, *(one.side for one in place), 1))
+        return replace(value, error=weaver.errors.worst(value.error, *(one.error for one in place)))
 
     return rule

@@ -94,7 +94,8 @@ def thing_looks(
     pictures = np.zeros((max(1, len(made.takes)), 1, count))
     for plane, kind in zip(pictures, made.takes, strict=False):
         plane[:] = told[kind]
-    return made.program.over(np.zeros(count), np.zeros(1), pictures)[:, 0]
+    nowhere = np.zeros((1, count))
+    return made.program.over(nowhere, nowhere, max(count, 1), pictures)
 
 
 def as_crowd(

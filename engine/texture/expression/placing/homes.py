@@ -66,7 +66,8 @@ def numbers_of(made: Placing, told: dict[int, np.ndarray], count: int) -> np.nda
     pictures[:] = 0.0
     for plane, kind in zip(pictures, made.takes, strict=False):
         plane[:] = told[kind]
-    return made.program.over(np.zeros(count), np.zeros(1), pictures)[:, 0].astype(np.float64) * LESSENED
+    nowhere = np.zeros((1, count))
+    return made.program.over(nowhere, nowhere, max(count, 1), pictures).astype(np.float64) * LESSENED
 
 
 def hashed(key: int, x: np.ndarray | int, y: np.ndarray | int) -> np.ndarray:

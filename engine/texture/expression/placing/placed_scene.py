@@ -1,4 +1,4 @@
-"""PlacedWords things as pictures: of a rectangle of pixels, whatever else is looked at.
+"""Placed things as pictures: of a rectangle of pixels, whatever else is looked at.
 
 Those in front are drawn first, so that what they hide is not drawn at all.  Things smaller than a pixel or two fade
 into what a crowd of them comes to (`measuring.as_crowd`).
@@ -349,7 +349,17 @@ def drawn_whole(made: Program, rect: Rect, sight: LineSight) -> np.ndarray:
     side = made.side
     xs = _samples(rect.x0 - sight.origin[0], rect.width, side, sight.pixel)
     ys = _samples(rect.y0 - sight.origin[1], rect.height, side, sight.pixel)
-    return made.over(xs, ys, scenery(made, rect, sight))
+    shape = ys.size, xs.size
+    places = by_samples(np.stack([np.broadcast_to(xs, shape), np.broadcast_to(ys[:, None], shape)]), side)
+    out = made.over(places[0], places[1], max(rect.width, 1), by_samples(scenery(made, rect, sight), side))
+    return out.reshape(-1, rect.height, rect.width)
+
+
+def by_samples(planes: np.ndarray, side: int) -> np.ndarray:
+    """Returns planes of samples, (n, h side, w side), by the samples of each pixel: (n, side side, h w)."""
+    high, wide = planes.shape[1] // side, planes.shape[2] // side
+    parts = planes.reshape(-1, high, side, wide, side).transpose(0, 2, 4, 1, 3)
+    return np.ascontiguousarray(parts).reshape(-1, side * side, high * wide)
 
 
 def _samples(first: int, count: int, side: int, pixel: float) -> np.ndarray:

@@ -183,7 +183,7 @@ def _weaver(thing: Thing, scene: ThingScene, width: float) -> Weaver:
 def _placing(weaver: Weaver, value: Value) -> Placing:
     assert isinstance(weaver.scene, ThingScene)
     return Placing(
-        program(Woven(weaver.graph, value, cost_of(weaver.graph, value.nodes)), 1), tuple(weaver.scene.takes)
+        program(Woven(weaver.graph, value, False, cost_of(weaver.graph, value.nodes)), 1), tuple(weaver.scene.takes)
     )
 
 

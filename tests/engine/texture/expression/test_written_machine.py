@@ -57,6 +57,12 @@ def setting(width=0.01):
     return Setting({}, 0, 3, width)
 
 
+def grid(made, xs, ys):
+    """What a program makes of one sample at each crossing: (planes, ys, xs)."""
+    places = (np.ascontiguousarray(one.reshape(1, -1)) for one in np.meshgrid(xs, ys))
+    return made.over(*places, xs.size).reshape(-1, ys.size, xs.size)
+
+
 ARITHMETIC = (
     "x*y - 3/(x + 7) + y**3 - x**0.7 + 2**y",
     "sin(x*9)*cos(y*7) + tan(x/3)*0.1 + atan2(y, x) + exp(-x) - log(y)",
@@ -80,7 +86,7 @@ def test_the_machine_does_what_the_operations_say(text, width):
     x, y = (a.ravel() for a in np.meshgrid(xs, ys))
     with np.errstate(all="ignore"):
         told = plainly(woven.graph, woven.value.nodes, x, y)
-    for plane, expected in zip(made.over(xs, ys), told, strict=True):
+    for plane, expected in zip(grid(made, xs, ys), told, strict=True):
         bounded = np.clip(np.nan_to_num(expected, nan=0.0), -1.0, 2.0).reshape(plane.shape)
         apart = np.abs(plane - bounded)
         assert np.median(apart) < 1e-6
@@ -103,8 +109,10 @@ def test_slopes_are_those_of_differences(text):
     xs, ys = np.linspace(-0.9, 0.93, 23), np.linspace(-0.8, 0.71, 7)
     made = program(values, 1)
     for axis, name in enumerate(("slope_x", "slope_y")):
-        sloped = program(weave(read(f"{name}({text})*0.01"), setting(1e-7)), 1).over(xs, ys)[0]
-        moved = [made.over(xs + d * (1 - axis), ys + d * axis)[0].astype(np.float64) for d in (-step * 100, step * 100)]
+        sloped = grid(program(weave(read(f"{name}({text})*0.01"), setting(1e-7)), 1), xs, ys)[0]
+        moved = [
+            grid(made, xs + d * (1 - axis), ys + d * axis)[0].astype(np.float64) for d in (-step * 100, step * 100)
+        ]
         told = (moved[1] - moved[0]) / (200 * step)
         assert np.median(np.abs(sloped - told)) < 2e-4
         assert (np.abs(sloped - told) > 2e-3).mean() < 0.1  # bends
@@ -113,7 +121,7 @@ def test_slopes_are_those_of_differences(text):
 def test_noise_is_smooth_even_and_as_loud_as_told():
     made = program(weave(read("noise(x, y)"), setting(1e-3)), 1)
     places = np.arange(0, 60, 0.05)
-    seen = made.over(places, places)[0].astype(np.float64)
+    seen = grid(made, places, places)[0].astype(np.float64)
     assert abs(seen.mean() - 0.5) < 0.005
     assert abs(seen.std() - LOUD * 0.463) < 0.005
     assert np.abs(np.diff(seen, axis=0)).max() < 0.15
@@ -125,7 +133,7 @@ def test_noise_is_smooth_even_and_as_loud_as_told():
 def test_white_noise_is_even_and_balanced():
     made = program(weave(read("white(x, y)"), setting(1e-9)), 1)
     places = np.arange(0, 256) + 0.5
-    seen = made.over(places, places)[0].astype(np.float64)
+    seen = grid(made, places, places)[0].astype(np.float64)
     assert np.abs(np.histogram(seen, 8, (0, 1))[0] / seen.size - 0.125).max() < 0.005
     assert np.abs(seen.reshape(128, 2, 128, 2).mean((1, 3)) - 0.5).max() < 1e-6
 

@@ -6,7 +6,7 @@ import pytest
 
 from engine.numeric.address import Rect
 from engine.texture.expression.defined import expression
-from engine.texture.expression.examined import shimmer
+from engine.texture.expression.examined import line_look, shimmer
 
 LEVELS = range(-5, 5)
 SIDE = 16  # pixels along a square that is looked at
@@ -31,7 +31,7 @@ EXACT = {  # what is linear, or has a mean in closed form: error at most
 }
 CLOSE = {  # what goes by slopes and samples: error from level -3 on, where a period is 8 pixels wide
     "rotate(noise(x*4, y*4), 30)": 0.5,
-    "rotate(squares(x*4, y*4), 30)": 1.0,
+    "rotate(squares(x*4, y*4), 30)": 1.2,
     "warp(fbm(x*2, y*2), 0.1*noise(x*2, y*2), 0)": 3.0,
     "ridged(x*2, y*2)": 3.0,
     "turbulence(x*2, y*2)": 3.0,
@@ -90,11 +90,23 @@ def test_what_has_none_is_close_to_it(text):
 
 
 def test_few_samples_are_taken_where_few_are_enough():
-    def sides(text):
+    def samples(text, number=-1):
         made = expression({"text": text}, -20)
-        return [made.at(level).side for level in (-3, 0, 6)]
+        return [line_look(made, number % len(made.text.split(";")), level).samples for level in (-3, 0, 6)]
 
-    assert sides("fbm(x, y) + bricks(x, y)*0.5") == [1, 1, 1]
-    assert sides("noise(x, y) > 0.5")[2] == 1
-    assert sides("noise(x*4, y*4) > 0.5")[0] > 1
-    assert sides("smoothstep(0.1, 0.2, fract(x))") == [4, 4, 4]
+    assert samples("fbm(x, y) + bricks(x, y)*0.5") == [1, 1, 1]
+    assert samples("noise(x*4, y*4) > 0.5")[1:] == [1, 1]
+    assert samples("luma(ramp(fbm(x*9, y*9, 12), 0, #000000, 0.45, #ffffff, 0.5, #000000, 0.55, #ffffff))")[0] != 1
+    assert samples("smoothstep(0.1, 0.2, fract(x))")[1:] == [0, 0]  # those pixels alone in which it jumps
+    assert samples("a = fract(x); fbm(x*3, y*3)") == [1, 1, 1]
+
+
+def test_pixels_without_a_jump_are_as_with_one_sample():
+    """A sawtooth, bent: where no tooth ends the pixel shows what one sample does, there the mean of sixteen."""
+    made = expression({"text": "pow(fract(x), 1.5)", "period": 16}, 0)
+    shown = made.means(0, Rect.at(0, 0, 64, 1))[0, 0] / 2 + 0.5
+    places = (np.arange(64 * 16) + 0.5) / 256
+    mean = (places % 1.0) ** 1.5
+    assert np.abs(shown - mean.reshape(64, 16).mean(1)).max() < 0.02
+    shifted = expression({"text": "pow(fract(x + 1/32), 1.5)", "period": 16}, 0).means(0, Rect.at(0, 0, 64, 1))[0, 0]
+    assert 0.3 < (shifted / 2 + 0.5)[15::16].max() < 0.7

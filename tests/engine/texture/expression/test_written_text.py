@@ -72,7 +72,7 @@ def test_a_word_that_is_nearly_one_is_told():
 
 
 def test_too_dear_a_texture_is_refused_with_its_cost():
-    lines = [f"a{n} = " + "+".join(f"cells_edge(x, y, 1, {20 * n + k})" for k in range(20)) for n in range(12)]
+    lines = [f"a{n} = " + "+".join(f"cells_edge(x, y, 1, {20 * n + k})**9" for k in range(20)) for n in range(12)]
     told = refused("\n".join([*lines, "+".join(f"a{n}" for n in range(12)) + "+ pow(noise(x*99, y*99), 0.3)"]))
     assert told.found.endswith("microseconds a pixel")
     assert refused("a = fbm(x, y)\n" + warped()).found == "too much at once"

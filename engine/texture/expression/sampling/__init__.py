@@ -1,0 +1,1 @@
+"""How many samples a pixel of a written texture takes."""

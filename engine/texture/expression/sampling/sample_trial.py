@@ -1,0 +1,94 @@
+"""How many samples a pixel of a written texture takes, where that cannot be told beforehand: it is measured at some
+pixels, which are the same ones for every text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from functools import lru_cache
+from typing import Protocol
+
+import numpy as np
+
+from engine.texture.expression.sampling.errors import JUMP_SIDE, MANY_FROM, POINT_SIDE
+
+_PIXELS = 96
+_ACROSS = ((41.0, 256.0), (3.0, 12.0))  # periods, but no fewer pixels, within which every other one lies
+_UNIT = 1 << 16
+_OFTEN = 1.0 / 12.0  # of the pixels
+_ALLOWED, _MOST = 1.2 / 255.0, 6.0 / 255.0  # rms over these pixels, and at one, of the channel that is farthest off
+_STRICT = 0.4  # of these: what one sample may be off, which has most at few places
+_FAR = 2.0 / 255.0  # one sample and four from one another, where more are taken
+_TURNS = (0.7548776662466927, 0.5698402909980532)  # no two pixels are near one another (Roberts 2018)
+
+
+class Drawn(Protocol):
+    """A program, as `programs.Program`."""
+
+    @property
+    def side(self) -> int:
+        """Gives samples along a pixel."""
+
+    @property
+    def compares(self) -> bool:
+        """Tells whether pixels take more in which four are far from one."""
+
+    @property
+    def finer(self) -> Callable[[int], Drawn] | None:
+        """Gives the program for so many along a pixel; None where all take as many."""
+
+    def over(self, xs: np.ndarray, ys: np.ndarray, row: int) -> np.ndarray:
+        """Returns the means over pixels."""
+
+
+def far_apart(plain: np.ndarray, some: np.ndarray) -> np.ndarray:
+    """Tells in which pixels one sample and some are so far from one another that more must be taken: bool (pixels,)."""
+    found: np.ndarray = np.abs(plain - some).max(axis=0) > np.float32(_FAR)
+    return found
+
+
+def measured_side(made: Callable[[int], Drawn], period: Fraction) -> int:
+    """Returns how many samples along a pixel are enough; `made`: a text for so many; `period`: pixels."""
+    plain, some = (_shown_at(made(side), side, period) for side in (1, POINT_SIDE))
+    if _alike(plain, some, _STRICT):
+        return 1
+    many = _shown_at(made(JUMP_SIDE), JUMP_SIDE, period)
+    return POINT_SIDE if _alike(some, many) else JUMP_SIDE
+
+
+def samples_of(made: Drawn, period: Fraction) -> tuple[float, bool]:
+    """Returns how many samples a pixel takes, about, of a program by which some take more than others, and whether so
+    many do that what was measured tells of them, too."""
+    assert made.finer is not None
+    found = made.over(*_places(made.side, float(period)), _PIXELS)
+    more, samples = found[-1] >= MANY_FROM, float(made.side**2)
+    if made.compares:
+        some = made.finer(POINT_SIDE).over(*_places(POINT_SIDE, float(period)), _PIXELS)
+        more, samples = more | far_apart(found[:-1], some), samples + POINT_SIDE**2
+    part = float(np.count_nonzero(more)) / _PIXELS
+    often = part > _OFTEN
+    return samples + (POINT_SIDE if often and not made.compares else JUMP_SIDE) ** 2 * part, often
+
+
+def _shown_at(made: Drawn, side: int, period: Fraction) -> np.ndarray:
+    shown = made.over(*_places(side, float(period)), _PIXELS)
+    return np.rint(shown.astype(np.float64) * _UNIT).astype(np.int64)
+
+
+def _alike(a: np.ndarray, b: np.ndarray, part: float = 1.0) -> bool:
+    squares = np.square(a - b).max(axis=0)
+    rms, most = math.sqrt(int(squares.sum()) / _PIXELS) / _UNIT, math.sqrt(int(squares.max())) / _UNIT
+    return rms <= _ALLOWED * part and most <= _MOST * part
+
+
+@lru_cache(64)
+def _places(side: int, period: float) -> tuple[np.ndarray, np.ndarray]:
+    """Returns where the samples of these pixels lie, in periods: float64 (side side, pixels), twice."""
+    wide = np.array([max(periods * period, least) for periods, least in _ACROSS] * (_PIXELS // 2))
+    found = []
+    within = np.arange(side)
+    for turn, along in zip(_TURNS, (np.tile(within, side), np.repeat(within, side)), strict=True):
+        pixel = np.floor(np.arange(1, _PIXELS + 1) * turn % 1.0 * wide)
+        found.append(np.ascontiguousarray((pixel * side + along[:, None] + 0.5) / (side * period)))
+    return found[0], found[1]
