@@ -21,7 +21,10 @@ Points = list[tuple[float, float, float]]
 
 
 def preset(name: str, **changes: Any) -> dict[str, Any]:
-    brush: dict[str, Any] = json.loads((BRUSHES / f"{name}.json").read_text())["brush"]
+    """A bundled brush as it was when this was painted: those that are another since lie among the scene's."""
+    then = FOLDER / "scene" / f"{name}.json"
+    path = then if then.exists() else BRUSHES / then.name
+    brush: dict[str, Any] = json.loads(path.read_text())["brush"]
     return brush | changes
 
 
