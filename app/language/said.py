@@ -95,6 +95,6 @@ def calc_text_size(text: str, hide: bool = False, wrap: float = -1.0) -> ImVec2:
     return imgui.calc_text_size(say(text), hide, wrap)
 
 
-def add_text(painter: imgui.ImDrawList, at: ImVec2, colour: int, text: str) -> None:
-    """Draws a text at a place."""
-    painter.add_text(at, colour, say(text))
+def add_text(painter: imgui.ImDrawList, at: ImVec2, colour: int, text: str, size: float | None = None) -> None:
+    """Draws a text at a place, as large as all texts unless told, pixels."""
+    painter.add_text(imgui.get_font(), size or imgui.get_font_size(), at, colour, say(text))

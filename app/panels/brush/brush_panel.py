@@ -15,7 +15,6 @@ from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
 from app.desk.hand import go_on_with_brush
 from app.language import said
-from app.language.words import say
 from app.panels.brush import example_section, move_choice, shape_choice, tip_section
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.dynamics_section import DynamicsSection
@@ -135,7 +134,7 @@ class BrushPanel:
             painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, 4 * desk.scale)
             size = 0.8 * imgui.get_font_size()
             at = ImVec2(corner.x + 0.4 * size, end.y - 1.2 * size)
-            painter.add_text(imgui.get_font(), size, at, theme.packed(_ON_WHITE), say(desk.hand.preset))
+            said.add_text(painter, at, theme.packed(_ON_WHITE), desk.hand.preset, size)
 
     def _tools(self, desk: Desk) -> None:
         side = imgui.get_font_size() * 2.1

@@ -80,7 +80,8 @@ def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
     """Draws a line's picture larger, and what is known of it."""
     side, padding = _LARGE * desk.scale, imgui.get_style().window_padding
     shown = desk.pictures.get("workshop lines")
-    text = f"{line.cost:,.0f} ns a pixel, {samples_told(line.samples)}"
+    samples = samples_told(line.samples)
+    text = f"{line.cost:,.0f} ns a pixel, {samples}"
     about = f"{line.least:.2f} … {line.most:.2f}"
     high = side + 3 * imgui.get_text_line_height_with_spacing()
     wide = max(side, said.calc_text_size(text).x, said.calc_text_size(line.name).x)

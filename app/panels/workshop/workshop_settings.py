@@ -84,7 +84,8 @@ def _facts(desk: Desk) -> None:
     imgui.same_line(wide - said.calc_text_size(text).x)
     said.text_disabled(text)
     imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
-    said.text_wrapped(f"{line.cost:,.0f} ns a pixel, {samples_told(line.samples)}")
+    samples = samples_told(line.samples)
+    said.text_wrapped(f"{line.cost:,.0f} ns a pixel, {samples}")
     imgui.pop_style_color()
     w.tooltip("What it costs, with all that it refers to; what has no exact mean is looked at in 4 or 16 points")
     if scene.shimmer >= 0.0:
