@@ -17,8 +17,8 @@ _PIXELS = 96
 _ACROSS = ((41.0, 256.0), (3.0, 12.0))  # periods, but no fewer pixels, within which every other one lies
 _UNIT = 1 << 16
 _OFTEN = 1.0 / 12.0  # of the pixels
-_ALLOWED, _MOST = 1.2 / 255.0, 6.0 / 255.0  # rms over these pixels, and at one, of the channel that is farthest off
-_STRICT = 0.4  # of these: what one sample may be off, which has most at few places
+# How far one sample may be off, and four: rms over these pixels, and at one, of the channel that is farthest off.
+_BY_ONE, _BY_FOUR = (0.5 / 255.0, 2.4 / 255.0), (1.5 / 255.0, 14.0 / 255.0)
 _FAR = 2.0 / 255.0  # one sample and four from one another, where more are taken
 _TURNS = (0.7548776662466927, 0.5698402909980532)  # no two pixels are near one another (Roberts 2018)
 
@@ -51,10 +51,10 @@ def far_apart(plain: np.ndarray, some: np.ndarray) -> np.ndarray:
 def measured_side(made: Callable[[int], Drawn], period: Fraction) -> int:
     """Returns how many samples along a pixel are enough; `made`: a text for so many; `period`: pixels."""
     plain, some = (_shown_at(made(side), side, period) for side in (1, POINT_SIDE))
-    if _alike(plain, some, _STRICT):
+    if _alike(plain, some, _BY_ONE):
         return 1
     many = _shown_at(made(JUMP_SIDE), JUMP_SIDE, period)
-    return POINT_SIDE if _alike(some, many) else JUMP_SIDE
+    return POINT_SIDE if _alike(some, many, _BY_FOUR) else JUMP_SIDE
 
 
 def samples_of(made: Drawn, period: Fraction) -> tuple[float, bool]:
@@ -76,10 +76,10 @@ def _shown_at(made: Drawn, side: int, period: Fraction) -> np.ndarray:
     return np.rint(shown.astype(np.float64) * _UNIT).astype(np.int64)
 
 
-def _alike(a: np.ndarray, b: np.ndarray, part: float = 1.0) -> bool:
+def _alike(a: np.ndarray, b: np.ndarray, allowed: tuple[float, float]) -> bool:
     squares = np.square(a - b).max(axis=0)
     rms, most = math.sqrt(int(squares.sum()) / _PIXELS) / _UNIT, math.sqrt(int(squares.max())) / _UNIT
-    return rms <= _ALLOWED * part and most <= _MOST * part
+    return rms <= allowed[0] and most <= allowed[1]
 
 
 @lru_cache(64)
