@@ -33,6 +33,7 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import reduce
 from engine.painting.cascade import Cascade
+from engine.texture.expression.placing.generated import Generated
 from engine.texture.planes import COLOURS, Planes
 from engine.texture.record import Instance
 
@@ -138,7 +139,7 @@ class _Tile:
 
     def inks(self) -> tuple[Instance, ...]:
         """Returns the inks that lie here and whose appearance is known, the finer ones first; none if there are too
-        many of those that add texture of their own at this level."""
+        many of those that add texture of their own at this level, or things, which take longer to draw than to read."""
         found = list(self.record.inks)
         top, left, *_ = self._place
         for i, ink in enumerate(self._above.inks):
@@ -147,7 +148,8 @@ class _Tile:
                 found.append(ink)
         adding = [ink for ink in found if ink.base < self.key.level]
         others = [ink for ink in found if 0 <= ink.base - self.key.level <= ABOVE]
-        return () if len(adding) > MOST else tuple([*adding, *others][:MOST])
+        dear = any(isinstance(ink, Generated) for ink in found)
+        return () if dear or len(adding) > MOST else tuple([*adding, *others][:MOST])
 
     def arguments(self, inks: tuple[Instance, ...], seen: _Seen) -> _Arguments:
         """Returns what the kernels need of the tile for these inks."""

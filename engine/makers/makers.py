@@ -27,7 +27,7 @@ from engine.painting.layering.painting_member import A_FILE, A_PICTURE, HOLDS
 from engine.painting.textures import Around, Texture
 from engine.painting.times import untimed
 from engine.strokes import example_textures
-from engine.texture.expression.library.bundled_texts import like_in_library, written_library
+from engine.texture.expression.library.bundled_texts import generator_library, like_in_library, written_library
 from engine.texture.image import ImageSource
 from engine.texture.table import DEFINED, EXPRESSION, KINDS
 
@@ -57,9 +57,10 @@ def _written(command: DefineTexture, root: Group, around: Around) -> Texture:
     told = command.arguments
     if "bundled" in told and "text" not in told:
         name = Fields(told, "").text("bundled", cap=64)
-        if name not in written_library():
+        found = written_library().get(name) or generator_library().get(name)
+        if found is None:
             raise FieldError("bundled", f"{name!a}", like_in_library(name))
-        told = told.set("text", written_library()[name].text)
+        told = told.set("text", found.text)
     return Texture(command.maker, told)
 
 

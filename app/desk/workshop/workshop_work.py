@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 import platformdirs
 
 from app.desk.desk import Desk, FileWork
-from engine.texture.expression.library.bundled_texts import written_library
+from engine.texture.expression.library.bundled_texts import generator_library, written_library
 from engine.texture.expression.library.lesson_texts import lessons
 
 TEXT = ".inktexture"  # the ending of a written texture
@@ -29,14 +29,15 @@ class ListTexts(FileWork):
 
     def carry_out(self) -> tuple[str, ...]:
         """Returns the paths of those that are kept, by name."""
-        written_library(), lessons()  # read now, on this thread
+        written_library(), generator_library(), lessons()  # read now, on this thread
         folder = own_texts()
         return tuple(sorted(map(str, folder.glob(f"*{TEXT}")))) if folder.is_dir() else ()
 
     def arrive(self, desk: Desk, found: tuple[str, ...]) -> None:
         """Lists them."""
         desk.workshop.files = found
-        desk.workshop.library, desk.workshop.lessons = tuple(written_library().values()), lessons()
+        texts = (*written_library().values(), *generator_library().values())
+        desk.workshop.library, desk.workshop.lessons = texts, lessons()
         if not desk.workshop.text:
             desk.workshop.take(lessons()[0].text)
 

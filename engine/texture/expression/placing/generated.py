@@ -21,10 +21,11 @@ from engine.texture.expression.defined import PERIOD_LEAST, PERIOD_MOST, express
 from engine.texture.expression.placing.centre_line import POINTS_MOST, CentreLine
 from engine.texture.expression.placing.placed_scene import LineSight, bounds_of_line, changed_box, drawn_whole
 from engine.texture.expression.programs import Program
-from engine.texture.expression.written_ink import FINEST_PIXEL, Expression, pixels
+from engine.texture.expression.written_ink import FINEST_PIXEL, Expression, in_squares, pixels
 
 COLOURS_OF, COVER_OF, ALPHA_OF = "generated", "generated-cover", "generated-alpha"
-_KEPT = 24  # pictures of all parts
+_KEPT = 192  # squares, of 2^18 bytes each
+_WORTH = 8  # of a square: what is asked for less of it is not kept
 _SMALL = 192  # pixels of a unit
 
 
@@ -61,8 +62,13 @@ class LaidStroke:
         return changed_box(self.at(level), self.sight(level), before.sight(level))
 
     def means(self, level: int, rect: Rect) -> np.ndarray:
-        """Returns what the pixels of a rectangle show, premultiplied: float32 (4, h, w), not to be written to."""
-        return _drawn(self, level, rect)
+        """Returns what the pixels of a rectangle show, premultiplied: float32 (4, h, w)."""
+        out = np.empty((4, rect.height, rect.width), np.float32)
+        for piece, tile in in_squares(rect):
+            whole = piece.area * _WORTH >= tile.area
+            shown = _kept(self, level, tile)[:, *piece.slices(tile)] if whole else _drawn(self, level, piece)
+            out[:, *piece.slices(rect)] = shown
+        return out
 
 
 @lru_cache(256)
@@ -71,14 +77,16 @@ def _bounds(laid: LaidStroke, level: int) -> Rect:
 
 
 @lru_cache(_KEPT)
+def _kept(laid: LaidStroke, level: int, tile: Rect) -> np.ndarray:
+    """Returns what a square shows: all parts, strokes, the screen and each save ask for the same ones again."""
+    return _drawn(laid, level, tile)
+
+
 def _drawn(laid: LaidStroke, level: int, rect: Rect) -> np.ndarray:
     """Where things are small, and many lie in a pixel, the mean of finer pixels, each as it is drawn."""
     if pixels(laid.unit, level - laid.base) < _SMALL:
-        out = reduce(_drawn_once(laid, level + 1, rect.zoomed(1)))
-    else:
-        out = _drawn_once(laid, level, rect)
-    out.flags.writeable = False
-    return out
+        return reduce(_drawn_once(laid, level + 1, rect.zoomed(1)))
+    return _drawn_once(laid, level, rect)
 
 
 def _drawn_once(laid: LaidStroke, level: int, rect: Rect) -> np.ndarray:
