@@ -17,6 +17,8 @@ def test_a_formula_written_in_the_panel_changes_paint_and_lays_none(program):
     below, shown = app.box("group")[3], app.boxes()
     listed = [box for (window, _), box in shown.items() if window == "brushes" and box[1] > below]
     assert len(listed) >= 8, sorted(shown)  # at 1280 x 800, wholly or in part
+    assert shown["settings", "Grow"][2] <= shown["settings", "Opacity"][2]  # what it does has room for all its words
+    assert shown["settings", "Grow"][2] - shown["settings", "Grow"][0] > 30
     app.keys(*["bracketright"] * 12)
     app.stroke((380, 360), (800, 360))
     painted = app.canvas_unlike(empty)

@@ -34,7 +34,7 @@ from engine.brush.settings import SETTINGS
 from engine.studio.requests import Swatch
 
 _ON_WHITE = 0.36, 0.36, 0.36  # of the brush's name, on the white of its picture, whatever the look
-PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
+PREVIEW = (228, 44)  # of the stroke of the brush as it is, points
 _FIXED = (
     ("canvas", "On canvas", "Textures lie still on the canvas: strokes merge"),
     ("stroke", "On stroke", "Textures turn and run with each stroke, as brush marks do"),
@@ -157,14 +157,17 @@ class BrushPanel:
         shape_choice.draw(desk, side)
 
     def _modes(self, desk: Desk) -> None:
-        """Buttons side by side, each as wide as its word asks for."""
-        gap = 3 * desk.scale
-        words = [said.calc_text_size(row.label).x for row in MODES.values()]
-        spare = (imgui.get_content_region_avail().x - sum(words) - gap * (len(MODES) - 1)) / len(MODES)
+        """Buttons side by side, each as wide as its word asks for, in two rows where a language asks for more room."""
+        gap, room, rows = 3 * desk.scale, imgui.get_content_region_avail().x, list(MODES.values())
+        words = [said.calc_text_size(row.label).x + 2 * desk.scale for row in rows]
+        across = len(rows) if sum(words) + gap * (len(rows) - 1) <= room else (len(rows) + 1) // 2
         imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(1, 4) * desk.scale)
-        for i, row in enumerate(MODES.values()):
-            if i:
+        for i, row in enumerate(rows):
+            if i % across:
                 imgui.same_line(0, gap)
+            else:
+                beside = words[i : i + across]
+                spare = (room - sum(beside) - gap * (len(beside) - 1)) / len(beside)
             on = desk.hand.brush.row is row
             imgui.push_style_color(imgui.Col_.button, theme.vec(theme.look.accent_soft if on else theme.look.raised))
             if w.text_button(row.label, row.tooltip, width=words[i] + spare):
