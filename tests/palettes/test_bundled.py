@@ -13,6 +13,8 @@ import pytest
 from PIL import Image
 
 from app.desk import presets as palette
+from app.desk.holding.generator_brushes import generator_brushes
+from app.desk.holding.written_brushes import written_brushes
 from engine.brush import edits
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
@@ -65,6 +67,12 @@ def test_presets_are_whole_and_can_paint():
     assert len({p.name for p in found}) == len(found)
     for preset in found:
         edits.check(preset.brush)
+
+
+def test_no_two_brushes_have_one_name():
+    bundled = palette.load_brushes(palette.bundled_folder())[0]
+    names = [preset.name for preset in (*bundled, *generator_brushes(), *written_brushes())]
+    assert len(names) == len(set(names)), sorted(name for name in names if names.count(name) > 1)
 
 
 def test_every_preset_brings_all_it_needs_and_draws_itself():
