@@ -10,7 +10,7 @@ import moderngl
 
 from app.canvas.gallery import Gallery
 from app.canvas.shader_files import shader_source
-from app.desk.solids.shown_solid import NEARNESS, AtRest, Carved, turned_by
+from app.desk.solids.shown_solid import AtRest, Carved, turned_by
 from app.desk.solids.solid_state import SMALLEST_ROOM, SolidState
 from app.desk.solids.solid_work import BEHIND
 from engine.numeric.address import Rect
@@ -88,7 +88,7 @@ class SolidView:
         self._solid.use(0)
         program = self._program
         program["scale"], program["gloss"] = state.scale, state.carved.solid.gloss
-        lens = 1.0 / NEARNESS * min(1.0, width / height)
+        lens = 1.0 / state.carved.nearness * min(1.0, width / height)
         program["lens"] = lens * height / width, -lens  # the picture's first row is the uppermost
         program["turned"] = tuple(turned_by(*state.turn).T.reshape(-1).tolist())
         self._objects[state.turning].render(moderngl.TRIANGLES)

@@ -8,7 +8,7 @@ import pytest
 from test_solid_state import _Desk
 
 from app.desk.hand import Hand
-from app.desk.solids.shown_solid import NEARNESS, turned_by
+from app.desk.solids.shown_solid import turned_by
 from app.desk.solids.solid_state import SolidState
 from app.desk.solids.solid_work import Carve
 from app.desk.solids.touching_up import ObjectSeen, TouchUp, brush_on_solid
@@ -30,7 +30,7 @@ def state():
 
 def _on_picture(state, place):
     x, y, z = turned_by(*state.turn) @ np.array(place)
-    lens = 150.0 / NEARNESS / (6.4 - z)
+    lens = 150.0 / state.carved.nearness / (6.4 - z)
     return 200.0 + lens * x, 150.0 - lens * y
 
 
@@ -43,6 +43,14 @@ def test_a_ray_meets_the_object_where_the_picture_shows_it(state):
         beside = sight.hit(_on_picture(state, place)[0] + 1.0, _on_picture(state, place)[1])
         assert 0.5 < np.abs(np.array(beside.place) - met.place).max() / met.voxels < 3.0
     assert sight.hit(5.0, 5.0) is None
+
+
+@pytest.mark.parametrize("turn", [(20.0, 15.0), (45.0, 35.3), (0.0, 90.0)])
+def test_a_cube_is_seen_whole_however_it_is_turned(state, turn):
+    state.turn = turn
+    corners = ObjectSeen(state.aspect)._corners
+    assert (corners > 2.0).all()
+    assert (corners < np.array((398.0, 298.0))).all()
 
 
 def test_what_is_seen_while_the_pen_moves_is_what_is_carved_afterwards(state):

@@ -32,6 +32,13 @@ class Carved:
     faces: np.ndarray
     fewer: np.ndarray
 
+    @property
+    def nearness(self) -> float:
+        """Gives the picture's half height for a unit at distance 1, so that all of the object is seen however it is
+        turned: corners of a cube reach farther than a unit."""
+        places = self.corners[:, :3]
+        return NEARNESS * max(1.0, float(np.sqrt(np.einsum("ij,ij->i", places, places).max(initial=0.0))))
+
 
 class Aspect(NamedTuple):
     """Which object is seen, in how many pixels, how it is turned, and the scale of the solid."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from app.desk.desk import Desk, FileWork
 from app.desk.solids.painted_cube import as_bytes, painted_cube, painted_on, voxel_middles
-from app.desk.solids.shown_solid import NEARNESS, Aspect, AtRest, Carved, Made
+from app.desk.solids.shown_solid import Aspect, AtRest, Carved, Made
 from app.desk.solids.solid_state import LAST_SIDE, USUAL_MATERIAL, USUAL_OBJECT
 from app.desk.solids.working import for_a_while
 from engine.solids.material_sliders import MATERIALS
@@ -94,7 +94,7 @@ def pictures_at_rest(seen: Aspect) -> Iterator[AtRest | None]:
 
     corners = seen.carved.corners.astype(np.float64)
     mesh = Mesh(corners[:, :3], corners[:, 3:], seen.carved.faces)
-    scene = afloat(Body(mesh, seen.carved.solid, turning(*seen.turn), scale=seen.scale), NEARNESS, BEHIND)
+    scene = afloat(Body(mesh, seen.carved.solid, turning(*seen.turn), scale=seen.scale), seen.carved.nearness, BEHIND)
     yield None
     for samples in _SAMPLES:
         bands = []

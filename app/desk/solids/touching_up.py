@@ -9,7 +9,7 @@ import numpy as np
 from immutables import Map
 
 from app.desk.solids.painted_cube import as_bytes
-from app.desk.solids.shown_solid import EYE_AWAY, NEARNESS, Carved, turned_by
+from app.desk.solids.shown_solid import EYE_AWAY, Carved, turned_by
 from engine.brush.settings import Brush
 from engine.painting.layering.touch_command import TOUCH_POINTS_CAP, VOXELS, WIDEST_TOUCH, Touch
 from engine.painting.points import plain
@@ -40,7 +40,7 @@ class ObjectSeen:
         points = seen.carved.corners[:, :3].astype(np.float64)
         turned = points @ turned_by(*seen.turn).T
         self._away = EYE_AWAY - turned[:, 2]
-        self._lens = 0.5 * height / NEARNESS * min(1.0, width / height)
+        self._lens = 0.5 * height / seen.carved.nearness * min(1.0, width / height)
         across, down = turned[:, 0] / self._away * self._lens, turned[:, 1] / self._away * self._lens
         self._corners = np.stack([0.5 * width + across, 0.5 * height - down], axis=1)
         self._points, self._faces = points, seen.carved.faces
