@@ -1,6 +1,6 @@
 """Draws brushes.webp: a stroke of every bundled brush at 1:1, as a quarter as large, and 16 times as near.
 
-python palettes/pictures/make_brushes.py [PART OF A NAME ...]
+python palettes/pictures/make_brushes.py [PART OF A NAME]
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ sys.path[:0] = [str(FOLDER.parents[1]), str(FOLDER)]
 from make_sheet import BANDS, seen  # noqa: E402
 
 from app.desk import presets  # noqa: E402
+from app.desk.holding.generator_brushes import generator_brushes  # noqa: E402
 from app.desk.holding.written_brushes import written_brushes  # noqa: E402
 from engine.brush.settings import Brush  # noqa: E402
 from engine.painting.commands import Stroke  # noqa: E402
@@ -97,7 +98,8 @@ def main() -> None:
     bundled, faults = presets.load_brushes(presets.bundled_folder())
     if faults:
         raise SystemExit("\n".join(faults))
-    found = [one for one in (*bundled, *written_brushes()) if all(part in one.name for part in sys.argv[1:2])]
+    every = (*bundled, *generator_brushes(), *written_brushes())
+    found = [one for one in every if all(part in one.name for part in sys.argv[1:2])]
     drawn(found).save(FOLDER / "brushes.webp", quality=80, method=6)
 
 
