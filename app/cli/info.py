@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from engine.session.here.painted_here import ShownStroke
 
 _WIDE = 2048  # pixels: how finely bounds are found
+_FEW_NUMBERS = 8
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -240,6 +241,14 @@ def _line_of_selection(kept: dict[str, Any]) -> str:
     return f"{'all but ' if kept['inverse'] else ''}within {width} x {height} at {x}, {y} of level {level}"
 
 
+def _part_told(part: object) -> str:
+    """Returns a part of a key in one line: of a text its first, of a stroke's line how long it is."""
+    if isinstance(part, str):
+        first = part.strip().partition("\n")[0]
+        return first if first == part else f"{first}…"
+    return f"{len(part)} numbers" if isinstance(part, list | tuple) and len(part) > _FEW_NUMBERS else str(part)
+
+
 def _print(told: dict[str, Any]) -> None:
     frame = told["frame"]
     print(f"{told['file']}: {told['file_bytes']:,} bytes, frame {frame[2]} x {frame[3]} at {frame[0]}, {frame[1]}")
@@ -252,7 +261,7 @@ def _print(told: dict[str, Any]) -> None:
         for plot in reversed(row.get("examples", [])):
             print("    " + _told_plot(plot))
     for key in told["inks"]:
-        print(f"ink: {key[0]}, base level {key[1]}, {', '.join(map(str, key[2:])) or 'no parameters'}")
+        print(f"ink: {key[0]}, base level {key[1]}, {', '.join(map(_part_told, key[2:])) or 'no parameters'}")
     for name, kind in told["textures"].items():
         maps = f", told by {', '.join(told['maps'][name])}" if name in told["maps"] else ""
         print(f"texture: {name}, {kind}{maps}")
