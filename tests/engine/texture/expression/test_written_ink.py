@@ -11,7 +11,7 @@ from engine.numeric.address import Rect, TileKey
 from engine.numeric.detail import parents, subtract_expanded
 from engine.painting.textures import Texture
 from engine.texture import table
-from engine.texture.expression import written_ink
+from engine.texture.expression import machine, written_ink
 from engine.texture.expression.defined import anew, expression
 from engine.texture.expression.placing.placed_scene import drawn_plainly
 from engine.texture.record import Instance
@@ -44,6 +44,15 @@ def test_a_piece_is_the_same_whatever_else_is_asked_for(name):
         for piece in (Rect.at(left + 255, top + 3, 5, 6), Rect.at(left + 1, top, 288, 1)):
             rows, columns = piece.slices(whole)
             assert (made.appearance(level, piece) == seen[:, rows, columns]).all()
+
+
+def test_a_definition_is_checked_without_a_kernel(monkeypatch):
+    monkeypatch.setattr(
+        machine, "run", None
+    )  # on a first start it is not there for a while, and must not be waited for
+    made = expression({"text": "smoothstep(0.4, 0.6, fbm(x*7, y*7)) + fract(x) + 0.0625"}, 0)
+    with pytest.raises(TypeError):
+        made.appearance(0, Rect.at(0, 0, 1, 1))
 
 
 def test_a_square_is_drawn_once_and_kept_unchanged(monkeypatch):
