@@ -16,6 +16,7 @@ from engine.session.differing import apart_records, apart_tiles, difference
 from engine.session.held_pyramids import changed_nodes, pyramids_of, related
 from engine.texture.example.tiles import TilePlanes
 
+_PRESSED = 32  # steps that are coded at once, where the newest asks for room
 STEP_OVERHEAD = 6000  # bytes of a step's own objects, roughly: most are nodes of the maps of some ten levels
 
 
@@ -141,9 +142,11 @@ class StepLine:
         entry.step, entry.held = step, held
 
     def press(self, size: float, count: int) -> None:
-        """Codes so many bytes of the farthest steps, and puts so many steps away on disk."""
-        while self.plain and size > 0.0:
-            size = self.code(size)
+        """Codes so many bytes of the farthest steps, of `_PRESSED` of them at most, as thousands may hold next to
+        nothing; and puts so many steps away on disk."""
+        for _ in range(min(self.plain, _PRESSED)):
+            if size > 0.0:
+                size = self.code(size)
         for _ in range(min(count, self.in_memory)):
             self.put_away()
 

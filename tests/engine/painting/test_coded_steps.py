@@ -16,6 +16,7 @@ from engine.numeric.address import TILE, Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import history as histories
+from engine.session import line as lines
 from engine.session.coding import coded_records
 from engine.session.coding.coded_records import (
     WAY,
@@ -31,7 +32,7 @@ from engine.session.coding.sheets_within import SheetsWithin
 from engine.session.coding.spanned import SpannedData
 from engine.session.differing import apart_records, difference
 from engine.session.history import History
-from engine.session.line import STEP_OVERHEAD
+from engine.session.line import STEP_OVERHEAD, StepLine
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q
@@ -387,6 +388,19 @@ def test_while_memory_is_tight_each_step_codes_old_ones_and_puts_them_away_thoug
     for painting, wanted in states:
         assert contents(painting) == wanted
     spill.close()
+
+
+def test_one_step_does_not_code_thousands_that_hold_next_to_nothing(monkeypatch):
+    monkeypatch.setattr(lines, "_PRESSED", 3)
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
+    for n in range(6):
+        session.do(stroke(n))
+    line = StepLine(False, session.history.steps.done)
+    plain = [line.plain]
+    for _ in range(3):
+        line.press(1 << 40, 0)
+        plain.append(line.plain)
+    assert plain == [5, 2, 0, 0]
 
 
 @settings(deadline=None, max_examples=10)
