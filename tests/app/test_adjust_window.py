@@ -11,8 +11,8 @@ def test_an_adjustment_is_seen_before_it_is_done_and_taken_back_at_once(program)
     app.settled(60.0)
     empty = app.canvas()
     app.stroke(*((500 + 8 * i, 500) for i in range(50)))
-    painted = app.canvas_unlike(empty)
     app.box("Layer 1")  # the stroke is done, and there is something to adjust
+    painted = app.canvas_unlike(empty)
     app.keys("ctrl+m")
     app.box("Adjust", "Adjust")
     app.keys("Return")  # nothing is set yet
