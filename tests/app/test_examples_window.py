@@ -179,6 +179,7 @@ def test_saved_and_killed_while_it_grows(program, tmp_path, folder):
     assert more > 1500 or (more == 0 and offered)
 
 
+@pytest.mark.nightly
 def test_a_region_is_painted_and_saved(program, folder):
     app = with_palette(program)
     before = region_of(folder)

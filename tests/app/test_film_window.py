@@ -24,6 +24,7 @@ def films_to(program, path):
     program.keys("Return")
 
 
+@pytest.mark.nightly
 def test_a_film_of_the_painting(program, tmp_path):
     (tmp_path / "a.jsonl").write_text(LINES)
     window = program(str(tmp_path / "a.jsonl"))

@@ -145,6 +145,7 @@ def test_painting_on_what_is_turned_offers_what_can_be_done(app):
     app.canvas_unlike(turned)
 
 
+@pytest.mark.nightly
 def test_numbers_are_typed_and_what_is_turned_back_or_mirrored_twice_is_as_it_was(app):
     painted = app.canvas()
     app.keys("v")

@@ -10,6 +10,7 @@ CANVAS = (slice(60, 400), slice(280, 960))
 LINE = [(300 + 20 * i, 120 + (25 if i % 6 < 3 else -25)) for i in range(30)]
 
 
+@pytest.mark.nightly
 def test_a_texture_like_the_view_is_ink(program):
     app = program()
     app.settled()

@@ -13,6 +13,7 @@ def tinted(screen, at):
     return red - (green + blue) // 2 > 60
 
 
+@pytest.mark.nightly
 def test_the_brush_paints_what_is_selected_and_the_eraser_takes_it_away(program):
     app = program()
     app.settled(60.0)

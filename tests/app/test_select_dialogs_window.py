@@ -28,6 +28,7 @@ def near(across, down, by=2):
     return lambda sides: abs(sides[0] - across) <= by and abs(sides[1] - down) <= by
 
 
+@pytest.mark.nightly
 def test_what_is_gone_round_is_selected_grown_kept_and_had_back(program):
     app = program()
     app.settled(60.0)

@@ -35,6 +35,7 @@ def pebbles(tmp_path):
     return tmp_path / "pebbles.png"
 
 
+@pytest.mark.nightly
 def test_a_dropped_picture_gets_advice_and_is_painted_with(program, pebbles):
     app = program()
     app.settled()
