@@ -113,6 +113,7 @@ def test_what_is_turned_by_parts_is_set_down_above_and_can_be_baked(app, tmp_pat
     app.box("Layer 1 part")
     app.click("Make independent", "status")
     app.click("Make independent", "Make independent")  # its rock goes no finer then
+    app.until_gone("Make independent")  # which takes the keys
     app.keys("ctrl+shift+a")
     app.settled()
     assert names(app, tmp_path / "turned.ora") == ["Layer 1", "Layer 1 part (source)", "Layer 1 part"]
