@@ -13,7 +13,8 @@ from engine.canvas.selecting.selection import Selection
 from engine.kernel_cache import NotCompiled, refusing
 from engine.painting import commands as c
 from engine.studio import requests as q
-from engine.studio.preparing.job_queue import Job, job_of
+from engine.studio.preparing.job_queue import Job
+from engine.studio.preparing.named_textures import job_within
 from engine.studio.preparing.processes import Preparing
 from engine.studio.preparing.sketch import Sketch
 from engine.studio.studio import Studio
@@ -115,7 +116,9 @@ class WaitingLine:
         defined = tuple(
             r.command for r in self._queue if isinstance(r, q.Do) and isinstance(r.command, c.DefineTexture)
         )
-        return job_of(q.Swatch("", stroke.brush if stroke else Brush(), THUMBNAIL, textures=defined))
+        brush = stroke.brush if stroke else Brush()
+        painting = self._studio.easel.session.painting
+        return job_within(painting, q.Swatch("", brush, THUMBNAIL, textures=defined))
 
     def _draw(self) -> None:
         """Sketches what waits now."""

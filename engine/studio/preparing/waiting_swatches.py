@@ -8,6 +8,7 @@ from engine.kernel_cache import NotCompiled, refusing
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.preparing.job_queue import Job, expected, job_of
+from engine.studio.preparing.named_textures import job_within
 from engine.studio.preparing.processes import Preparing
 from engine.studio.studio import Studio
 
@@ -46,7 +47,7 @@ class WaitingSwatches:
 
     def ask(self, request: q.Swatch) -> None:
         """Paints a swatch, now or when its brush is ready."""
-        job = job_of(request)
+        job = job_within(self._studio.easel.session.painting, request)
         if self._preparing.ready(job):
             self._swatches.pop(request.ident, None)
             self._paint(request)

@@ -1,17 +1,22 @@
 """What waits for a kernel keeps its place: the order of commands is that in which they were asked for."""
 
+import json
 import time
 from types import SimpleNamespace
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from immutables import Map
 
+from engine.brush.parts import Component
 from engine.brush.settings import Brush
 from engine.kernel_cache import NotCompiled
+from engine.makers import definitions
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
+from engine.painting.textures import Texture
 from engine.painting.value import Painting
 from engine.studio import requests as q
 from engine.studio import results
@@ -149,6 +154,20 @@ def test_its_brush_jumps_the_queue():
     job, soon = kernels.jobs[-1]
     assert soon
     assert '"radius": 3.0' in job.line
+
+
+def test_a_brush_is_exercised_with_the_textures_of_the_painting_that_it_names():
+    """Without them it would be refused, and so be ready at once, its kernels left to the engine's thread."""
+    kernels, easel, waiting, _ = made()
+    told = c.DefineTexture("Rust", "expression", Map({"text": "noise(x, y)"}))
+    held = Map({name: Texture(told.maker, told.arguments) for name in (told.name, "another")})
+    easel.session = SimpleNamespace(painting=Painting(textures=held))
+    brush = Brush(radius=3.0, ink=(Component("Rust"), Component("gabor")))
+    waiting.do(q.Begin(0, (0, 0), brush))
+    waiting.do(q.Swatch("picked", brush, (8, 8)))
+    waiting.do(q.Swatch("lent", brush, (8, 8), textures=(told,)))
+    assert len(kernels.jobs) == 3
+    assert {definitions.read(json.loads(job.line)["textures"], "") for job, _ in kernels.jobs} == {(told,)}
 
 
 def test_a_stroke_that_could_be_laid_stays_in_sight_until_it_can_be_committed():
