@@ -23,6 +23,7 @@ _AROUND = 4  # pixels around a change whose residuals it also rewrites: those un
 _NOTHING: Level = Map()
 _FEW = 256  # places that are looked at one by one
 OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
+Lessen = Callable[[Record | None, Record], None]
 
 
 class _Holding:
@@ -79,9 +80,10 @@ def _all_in_memory(stored: Level, beside: list[Level]) -> Iterator[tuple[TilePla
             yield from ((place, record) for place, record in page.held[1].items() if record is not None)
 
 
-def difference(old: Group, new: Group, lessen: Callable[[Record, Record], None] | None = None) -> tuple[int, int]:
+def difference(old: Group, new: Group, lessen: Lessen | None = None) -> tuple[int, int]:
     """Returns bytes that only `old` holds, and bytes that only `new` holds, in whichever layer.  `lessen`: makes a
-    record that only `old` holds smaller by the one that took its place, before it is counted."""
+    record that took a place smaller, and the one that only `old` holds by it, if there is one, before both are
+    counted."""
     nodes = changed_nodes(old, new)
     before, after = map(_growths, nodes)
     lost = gained = 0
@@ -101,10 +103,10 @@ def difference(old: Group, new: Group, lessen: Callable[[Record, Record], None] 
             gained += in_old.lacks(b) if b is not None else 0
             continue
         for key, record, beside in _apart(a, b):
-            if not in_new.holds(key, record):
-                if lessen is not None and record is not None and beside is not None:
-                    lessen(record, beside)
-                lost += _alone(record, beside)
+            apart = not in_new.holds(key, record)
+            if lessen is not None and beside is not None:
+                lessen(record if apart else None, beside)
+            lost += _alone(record, beside) if apart else 0
             gained += 0 if in_old.holds(key, beside) else _alone(beside, record)
         lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
     return lost, gained

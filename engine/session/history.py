@@ -26,8 +26,9 @@ from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.numeric.address import TileKey
 from engine.painting.value import Painting
-from engine.session.coding.coded_records import CodedData, decode
+from engine.session.coding.coded_records import CodedData, Ways, decode
 from engine.session.coding.coded_tiles import decode_tile
+from engine.session.coding.laid_records import pack_laid, stays_packed
 from engine.session.coding.spanned import lessen
 from engine.session.differing import apart_records, apart_tiles, difference, lost_records
 from engine.session.held_pyramids import pyramids
@@ -104,7 +105,7 @@ class History(Owned):
                 decode(record)
         self._root = after.root
         _let_go(self._mixed, self._root, self.tight)
-        smaller = partial(lessen, self._done.ways) if self.lessens else None
+        smaller = partial(_smaller, self._done.ways if self.lessens else None)
         self._done.push(Undoable(_stepped(before), _stepped(after), *difference(before.root, after.root, smaller)))
         self._forget()
         entries = self._done.entries  # none in a replay that keeps no step
@@ -209,6 +210,14 @@ def _stepped(painting: Painting) -> Painting:
     return painting.beside(_NOTHING)
 
 
+def _smaller(ways: Ways | None, record: Record | None, other: Record) -> None:
+    """Makes a record that was just stored smaller, where a generator laid something there; and the one whose place it
+    took by it, where there are `ways`."""
+    pack_laid(other, record)
+    if ways is not None and record is not None:
+        lessen(ways, record, other)
+
+
 def _has(root: Group | None, key: TileKey, record: Record) -> bool:
     """Tells whether a state of the layers has a record."""
     return root is not None and any(pyramid.holds(key, record) for pyramid in pyramids(root).values())
@@ -230,4 +239,5 @@ def _let_go(mixed: deque[tuple[TileKey, Record]], root: Group | None, tight: boo
 
 def _in_the_way(record: Record, tight: bool) -> bool:
     """Tells whether a record of the present is to be made plain: what is coded by itself only where there is room."""
-    return isinstance(record.held, CodedData) and (record.held.other is not None or not tight)
+    alone = isinstance(record.held, CodedData) and record.held.other is None
+    return not (tight or stays_packed(record)) if alone else isinstance(record.held, CodedData)

@@ -4,10 +4,11 @@ of which fills a few of its pixels."""
 from __future__ import annotations
 
 from bisect import insort
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from isal import isal_zlib
 
 from engine.numeric.address import Rect
 from engine.texture.planes import COLOURS, sort_key
@@ -15,15 +16,17 @@ from engine.texture.record import Instance
 
 MANY = 8  # inks from which on planes are kept so
 _SHEET_OVERHEAD = 300  # bytes of a sheet's own objects, roughly
+_WORTH = 4 << 10  # bytes of a sheet from which on it may be packed
+_LESS = 2  # its own bytes are such a multiple of those packed, at least: else it stays as it is
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SparseSheet:
-    """Some planes of integers, (c, h, w) read-only, over the smallest `rect` that holds what is not zero; `most`: the
-    largest of their absolute values."""
+    """Some planes of integers over the smallest `rect` that holds what is not zero; `held`: their `data`, or these
+    packed; `most`: the largest of their absolute values."""
 
     rect: Rect
-    data: np.ndarray
+    held: np.ndarray | bytes
     most: int
 
     @classmethod
@@ -45,7 +48,23 @@ class SparseSheet:
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
-        return self.data.nbytes + _SHEET_OVERHEAD
+        return (len(self.held) if isinstance(self.held, bytes) else self.held.nbytes) + _SHEET_OVERHEAD
+
+    @property
+    def data(self) -> np.ndarray:
+        """Gives the planes, (c, h, w) read-only: int16 where that holds them, else int32."""
+        if not isinstance(self.held, bytes):
+            return self.held
+        told = np.frombuffer(isal_zlib.decompress(self.held), np.int16 if self.most < 1 << 15 else np.int32)
+        return told.reshape(-1, self.rect.height, self.rect.width)
+
+    def pack(self) -> None:
+        """Holds the planes packed, where that is much less.  Other threads may read them meanwhile."""
+        plain = self.held
+        if not isinstance(plain, bytes) and plain.nbytes >= _WORTH:
+            packed = isal_zlib.compress(np.ascontiguousarray(plain).data, 1)
+            if len(packed) * _LESS <= plain.nbytes:
+                object.__setattr__(self, "held", packed)
 
     def paste(self, out: np.ndarray, rect: Rect) -> None:
         """Writes what lies in `rect` into planes (c, h, w) over it."""
@@ -60,10 +79,11 @@ class SparseSheet:
         """Returns it with `data` in place of what lies in `rect`."""
         whole = self.rect.union(rect)
         kind = np.int16 if max(self.most, _most(data)) < 1 << 15 else np.int32
-        if whole == self.rect and self.data.dtype == kind:
-            out = self.data.copy()
+        own = self.data
+        if whole == self.rect and own.dtype == kind:
+            out = own.copy()
         else:
-            out = np.zeros((len(self.data), whole.height, whole.width), kind)
+            out = np.zeros((len(own), whole.height, whole.width), kind)
             self.paste(out, whole)
         out[:, *rect.slices(whole)] = data
         edges = out[:, 0], out[:, -1], out[:, :, 0], out[:, :, -1]
@@ -97,6 +117,14 @@ class SparsePlanes:
         """Counts the bytes of what it does not share with another."""
         shared = {id(sheet) for sheet in other._sheets}
         return sum(sheet.nbytes for sheet in self._sheets if id(sheet) not in shared)
+
+    def pack(self, before: SparsePlanes | None, which: Callable[[Instance], bool]) -> None:
+        """Packs colour, and some of the inks, where `before` has not the very same."""
+        known = {id(sheet) for sheet in before._sheets} if before is not None else set()
+        sheets = [sheet for ink, sheet in self.inks.items() if id(sheet) not in known and which(ink)]
+        for sheet in [*sheets, *([self.colours] if self.colours is not None else [])]:
+            if id(sheet) not in known:
+                sheet.pack()
 
     @property
     def _sheets(self) -> list[SparseSheet]:

@@ -15,6 +15,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.recording import version_of
 from engine.painting.value import Painting, Refusal
+from engine.session import history
 from engine.session.session import Session
 from engine.texture.expression.placing.generated import Generated
 
@@ -88,6 +89,29 @@ def test_copies_and_locked_alpha(more):
         assert (seen(session.painting, 2)[3] <= 1.0).all()
     else:
         assert after[3, 40:60].max() > 0.9
+
+
+def test_strokes_hold_few_bytes_and_what_is_packed_is_the_same(monkeypatch):
+    """A thousand lie within 1 GB: what they hold in a session is bounded, wherever they lie on one another."""
+    short = {"do": "stroke", "points": POINTS[:5], "brush": {**BRUSH, "radius": 9}}
+    strokes = [{**short, "origin": [20 * n % 90, 11 * n]} for n in range(9)]
+    session = painted(DEFINED, GROUND)
+    held = session.painting.root, session.history.held
+    for stroke in strokes:
+        session.do(c.parse(stroke))
+    (layer,) = layers.layers(session.painting.root)
+    (first,) = layers.layers(held[0])
+    grown = layer.pyramid.nbytes - first.pyramid.nbytes + session.history.held - held[1]
+    assert grown / len(strokes) < 500_000
+    monkeypatch.setattr(history, "pack_laid", lambda record, before: None)
+    plain = painted(DEFINED, GROUND, *strokes)
+    for level, rect in ((0, FRAME), (1, Rect.at(30, 20, 40, 30)), (-3, Rect.at(0, 0, 512, 256))):
+        assert (seen(session.painting, level, rect) == seen(plain.painting, level, rect)).all()
+    for _ in strokes:
+        session.do(c.parse({"do": "undo"}))
+    while session.room.pending:
+        session.room.step()
+    assert (seen(session.painting) == seen(painted(DEFINED, GROUND).painting)).all()
 
 
 @pytest.mark.parametrize(
