@@ -39,10 +39,11 @@ class GeneratedStroke(LiveStroke):
         if not len(points):
             return _NOWHERE
         self._dabs.append(self._stroker.walk(points))
-        before, self._laid = self._laid, self._made()
+        made = self._made()
+        dirty = _changed(self._laid, made, self.level)  # first: where it lacks a kernel, the stroke is as it was
+        self._laid = made
         self._keep(points)
         self._edit = None
-        dirty = _changed(before, self._laid, self.level)
         if not dirty.empty and self.layer.growth:
             self._flatten(self._all_dabs())
         if dirty.width * dirty.height > TILES_CAP << 14:

@@ -11,13 +11,14 @@ from engine.brush.settings import from_json
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
 from engine.canvas.tile_cache import TileCache
+from engine.kernel_cache import NotCompiled
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.recording import version_of
 from engine.painting.value import Painting, Refusal
 from engine.session import history
 from engine.session.session import Session
-from engine.texture.expression.placing.generated import Generated
+from engine.texture.expression.placing.generated import Generated, LaidStroke
 
 TEXT = """post = fade(mix(#804020, #e0c080, random(1)), fill(box(x, y + 0.5, 0.3, 0.9)))
 leaf = fade(#308030, fill(circle(x, y, 0.9)))
@@ -61,6 +62,21 @@ def test_it_is_the_same_in_portions_and_after_a_save_and_undone(tmp_path):
         assert (seen(opened, level) == seen(session.painting, level)).all()
     session.do(c.parse({"do": "undo"}))
     assert (seen(session.painting) == before).all()
+
+
+def test_points_that_lack_a_kernel_leave_the_stroke_as_it_was(monkeypatch):
+    """As it is taken back it is asked where it lies, on a thread that would compile all that this needs."""
+
+    def lacking(self, *about):
+        raise NotCompiled("scene")
+
+    live = painted(DEFINED).begin(0, (0, 0), from_json(BRUSH))
+    for name in ("changed", "rect"):
+        monkeypatch.setattr(LaidStroke, name, lacking)
+    with pytest.raises(NotCompiled):
+        live.add(np.array(POINTS))
+    assert live.empty
+    assert live.rect.empty
 
 
 def test_what_lies_below_shows_between_things_and_alpha_is_their_own():
