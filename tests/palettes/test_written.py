@@ -72,6 +72,12 @@ def test_a_text_names_others_where_they_are_or_elsewhere():
         expression({"text": '"snou"(x, y)'}, 0)
 
 
+@pytest.mark.parametrize("name", ["agate", "autumn-leaves", "kraft-paper", "linen"])
+def test_from_near_four_samples_of_a_pixel_are_enough(name):
+    near = expression({"text": written_library()[name].text}, -4).at(3)
+    assert (near.side, near.finer) == (2, None)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_none_shimmers(name):
     """Each level, from 16 pixels of a period to 65,536, is the next finer one, reduced."""

@@ -17,9 +17,12 @@ _PIXELS = 96
 _ACROSS = ((41.0, 256.0), (3.0, 12.0))  # periods, but no fewer pixels, within which every other one lies
 _UNIT = 1 << 16
 _OFTEN = 1.0 / 12.0  # of the pixels
-# How far one sample may be off, and four: rms over these pixels, and at one, of the channel that is farthest off.
-_BY_ONE, _BY_FOUR = (0.5 / 255.0, 2.4 / 255.0), (1.5 / 255.0, 14.0 / 255.0)
+# How far one sample may be off, and four: rms over these pixels but so many that are farthest off, and at one, of the
+# channel that is farthest off.
+_BY_ONE, _BY_FOUR = (0.5 / 255.0, 2.4 / 255.0, 0), (2.05 / 255.0, 24.0 / 255.0, 1)
+_ASIDE = 1.0 / 255.0  # all these pixels together: else each level is darker, or lighter, than the next one
 _FAR = 2.0 / 255.0  # one sample and four from one another, where more are taken
+_SHOWS = 2.0 / 255.0  # four from sixteen, rms over the pixels in which something jumps: less is not worth sixteen
 _TURNS = (0.7548776662466927, 0.5698402909980532)  # no two pixels are near one another (Roberts 2018)
 
 
@@ -58,8 +61,8 @@ def measured_side(made: Callable[[int], Drawn], period: Fraction) -> int:
 
 
 def samples_of(made: Drawn, period: Fraction) -> tuple[float, bool]:
-    """Returns how many samples a pixel takes, about, of a program by which some take more than others, and whether so
-    many do that what was measured tells of them, too."""
+    """Returns how many samples a pixel takes, about, of a program by which some take more than others, and whether what
+    was measured tells of these, too: they are many, or sixteen show no more of them than four."""
     assert made.finer is not None
     found = made.over(*_places(made.side, float(period)), _PIXELS)
     more, samples = found[-1] >= MANY_FROM, float(made.side**2)
@@ -67,19 +70,34 @@ def samples_of(made: Drawn, period: Fraction) -> tuple[float, bool]:
         some = made.finer(POINT_SIDE).over(*_places(POINT_SIDE, float(period)), _PIXELS)
         more, samples = more | far_apart(found[:-1], some), samples + POINT_SIDE**2
     part = float(np.count_nonzero(more)) / _PIXELS
-    often = part > _OFTEN
+    often = part > _OFTEN or (made.side == POINT_SIDE and part > 0.0 and not _shows_jumps(made, found, period))
     return samples + (POINT_SIDE if often and not made.compares else JUMP_SIDE) ** 2 * part, often
+
+
+def _shows_jumps(made: Drawn, some: np.ndarray, period: Fraction) -> bool:
+    """Tells whether sixteen samples show more than four of the pixels in which something jumps."""
+    assert made.finer is not None
+    many = _shown_at(made.finer(JUMP_SIDE), JUMP_SIDE, period)
+    squares = np.square(_whole(some[:-1]) - many).max(axis=0)[some[-1] >= MANY_FROM]
+    return math.sqrt(int(squares.sum()) / squares.size) / _UNIT > _SHOWS
 
 
 def _shown_at(made: Drawn, side: int, period: Fraction) -> np.ndarray:
     shown = made.over(*_places(side, float(period)), _PIXELS)
-    return np.rint(shown.astype(np.float64) * _UNIT).astype(np.int64)
+    return _whole(shown)
 
 
-def _alike(a: np.ndarray, b: np.ndarray, allowed: tuple[float, float]) -> bool:
-    squares = np.square(a - b).max(axis=0)
-    rms, most = math.sqrt(int(squares.sum()) / _PIXELS) / _UNIT, math.sqrt(int(squares.max())) / _UNIT
-    return rms <= allowed[0] and most <= allowed[1]
+def _whole(shown: np.ndarray) -> np.ndarray:
+    found: np.ndarray = np.rint(shown.astype(np.float64) * _UNIT).astype(np.int64)
+    return found
+
+
+def _alike(a: np.ndarray, b: np.ndarray, allowed: tuple[float, float, int]) -> bool:
+    apart, (rms, most, spared) = a - b, allowed
+    squares = np.sort(np.square(apart).max(axis=0))
+    found = math.sqrt(int(squares[: _PIXELS - spared].sum()) / _PIXELS) / _UNIT
+    aside = int(np.abs(apart.sum(axis=1)).max()) / (_PIXELS * _UNIT)
+    return found <= rms and aside <= _ASIDE and math.sqrt(int(squares[-1])) / _UNIT <= most
 
 
 @lru_cache(64)
