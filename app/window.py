@@ -59,7 +59,7 @@ from app.panels.moving import box_marks, frame_marks
 from app.panels.strip import STRIPS
 from app.router import Router
 from app.solid_view import SolidView
-from app.trace import trace_rest, trace_typing
+from app.trace import TRACED, trace_rest, trace_typing
 from app.wanted_tiles import Tiles
 from engine.keeping.preferences import Preferences, preferences_file, read_preferences
 from engine.studio import results
@@ -316,7 +316,8 @@ class Window:
     def wait(self, moving: bool) -> None:
         """Sleeps until the next frame; `moving`: what the last one gave."""
         trace_rest(not moving and self.engine.worker.settled, (self.desk.pointer.x, self.desk.pointer.y))
-        trace_typing(_typed())
+        if TRACED:
+            trace_typing(_typed())
         with self._guard.spare("on an event of the window system"):  # what its callbacks raised
             blinks = imgui.get_io().want_text_input or self.desk.selecting.selected
             self.pace.wait(moving, self.desk.painting, blinks)

@@ -6,15 +6,15 @@ when the coarser one is taken from it.  A number is grey, -1..1 for 0..1; a colo
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, partial
 
 import numpy as np
 
-from engine.numeric.address import TILE, Rect
+from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
+from engine.texture.expression.kept_squares import from_squares
 from engine.texture.expression.language import read, weave
 from engine.texture.expression.placing.placed_scene import drawn_plainly
 from engine.texture.expression.programs import Program, program
@@ -27,8 +27,6 @@ STAGES = 5  # pressures from 0 to 1, between which is mixed
 FINEST_PIXEL = 34  # a pixel of 2^-34 periods is the last that differs from its neighbours
 _COARSEST = -40  # levels above where the period is told
 _MEMO = 256
-_KEPT = 256  # squares, of at most 2^18 bytes each
-_WORTH = 8  # of a square: what is asked for less of it is not kept
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,30 +91,7 @@ class Expression:
     def means(self, level: int, rect: Rect) -> np.ndarray:
         """Returns what the pixels of a rectangle show: float32, (1, h, w) of -1..1 or (4, h, w) of 0..1."""
         about = self.text, self.values, self.seed, level - self.level, self.period
-        out = np.empty((self.at(level).channels, rect.height, rect.width), np.float32)
-        for piece, tile in in_squares(rect):
-            whole = piece.area * _WORTH >= tile.area
-            shown = (
-                _kept_square(*about, tile.x0, tile.y0)[:, *piece.slices(tile)] if whole else _shown_on(*about, piece)
-            )
-            out[:, *piece.slices(rect)] = shown
-        return out
-
-
-def in_squares(rect: Rect) -> Iterator[tuple[Rect, Rect]]:
-    """Yields the pieces of a rectangle, each with the square of TILE pixels that it lies in."""
-    for top in range(rect.y0 // TILE * TILE, rect.y1, TILE):
-        for left in range(rect.x0 // TILE * TILE, rect.x1, TILE):
-            tile = Rect.at(left, top, TILE, TILE)
-            yield rect.intersect(tile), tile
-
-
-@lru_cache(_KEPT)
-def _kept_square(
-    text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, left: int, top: int
-) -> np.ndarray:
-    """Returns what a square shows: strokes, the screen and each save ask for the same ones again."""
-    return _shown_on(text, values, seed, finer, period, Rect.at(left, top, TILE, TILE))
+        return from_squares(_shown_on, about, self.at(level).channels, rect)
 
 
 def _shown_on(

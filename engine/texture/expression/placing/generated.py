@@ -18,14 +18,13 @@ from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.pyramid import reduce
 from engine.texture.expression.defined import PERIOD_LEAST, PERIOD_MOST, expression
+from engine.texture.expression.kept_squares import from_squares
 from engine.texture.expression.placing.centre_line import POINTS_MOST, CentreLine
 from engine.texture.expression.placing.placed_scene import LineSight, bounds_of_line, changed_box, drawn_whole
 from engine.texture.expression.programs import Program
-from engine.texture.expression.written_ink import FINEST_PIXEL, Expression, in_squares, pixels
+from engine.texture.expression.written_ink import FINEST_PIXEL, Expression, pixels
 
 COLOURS_OF, COVER_OF, ALPHA_OF = "generated", "generated-cover", "generated-alpha"
-_KEPT = 192  # squares, of 2^18 bytes each
-_WORTH = 8  # of a square: what is asked for less of it is not kept
 _SMALL = 192  # pixels of a unit
 
 
@@ -63,23 +62,12 @@ class LaidStroke:
 
     def means(self, level: int, rect: Rect) -> np.ndarray:
         """Returns what the pixels of a rectangle show, premultiplied: float32 (4, h, w)."""
-        out = np.empty((4, rect.height, rect.width), np.float32)
-        for piece, tile in in_squares(rect):
-            whole = piece.area * _WORTH >= tile.area
-            shown = _kept(self, level, tile)[:, *piece.slices(tile)] if whole else _drawn(self, level, piece)
-            out[:, *piece.slices(rect)] = shown
-        return out
+        return from_squares(_drawn, (self, level), 4, rect)
 
 
 @lru_cache(256)
 def _bounds(laid: LaidStroke, level: int) -> Rect:
     return bounds_of_line(laid.at(level), laid.sight(level))
-
-
-@lru_cache(_KEPT)
-def _kept(laid: LaidStroke, level: int, tile: Rect) -> np.ndarray:
-    """Returns what a square shows: all parts, strokes, the screen and each save ask for the same ones again."""
-    return _drawn(laid, level, tile)
 
 
 def _drawn(laid: LaidStroke, level: int, rect: Rect) -> np.ndarray:

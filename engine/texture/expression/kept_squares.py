@@ -1,0 +1,38 @@
+"""Squares of what is drawn pixel by pixel, kept for a while: strokes, the screen and saves ask for the same ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from engine.numeric.address import TILE, Rect
+
+_KEPT = 256  # squares of all that is drawn, of at most 2^18 bytes each
+_WORTH = 8  # of a square: what is asked for less of it is not kept
+
+
+def from_squares(draw: Callable[..., np.ndarray], about: tuple[Hashable, ...], channels: int, rect: Rect) -> np.ndarray:
+    """Returns what `draw(*about, rect)` does, float32 (channels, h, w), a new array.  It gives each pixel the same
+    value in whatever rectangle."""
+    out = np.empty((channels, rect.height, rect.width), np.float32)
+    for piece, square in _squares(rect):
+        if piece.area * _WORTH >= square.area:
+            out[:, *piece.slices(rect)] = _kept(draw, about, square)[:, *piece.slices(square)]
+        else:
+            out[:, *piece.slices(rect)] = draw(*about, piece)
+    return out
+
+
+def _squares(rect: Rect) -> Iterator[tuple[Rect, Rect]]:
+    """Yields the pieces of a rectangle, each with the square of TILE pixels that it lies in."""
+    for top in range(rect.y0 // TILE * TILE, rect.y1, TILE):
+        for left in range(rect.x0 // TILE * TILE, rect.x1, TILE):
+            square = Rect.at(left, top, TILE, TILE)
+            yield rect.intersect(square), square
+
+
+@lru_cache(_KEPT)
+def _kept(draw: Callable[..., np.ndarray], about: tuple[Hashable, ...], square: Rect) -> np.ndarray:
+    return draw(*about, square)
