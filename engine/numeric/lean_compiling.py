@@ -1,16 +1,20 @@
-"""Leaves out what numba does beside compiling, a sixth of its time: nothing of it changes what a kernel computes.
+"""Leaves out what numba does beside compiling, or does again, a third of its time: nothing of it changes what a kernel
+computes.
 
 Each is a detail of numba's own; a version of it that has none of that name goes on as it always does.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from contextlib import suppress
+from typing import Any
 
 from llvmlite.binding import ffi
-from numba.core import event
+from numba.core import event, ir, postproc
 from numba.core.compiler import Flags
 from numba.core.targetconfig import ConfigStack
+from numba.core.types import BaseFunction
 from numba.core.typing import templates
 from numba.np import arrayobj
 
@@ -20,7 +24,16 @@ _MISSING = object()
 
 def leave_out() -> None:
     """Takes it all away, for this process."""
-    for each in (_c_callers, _told_sizes, _flags_told, _own_functions_again, _events):
+    for each in (
+        _c_callers,
+        _told_sizes,
+        _flags_told,
+        _own_functions_again,
+        _resolved_again,
+        _variables_of_blocks,
+        _parts_one_by_one,
+        _events,
+    ):
         with suppress(AttributeError, KeyError, ValueError):
             each()
 
@@ -49,7 +62,11 @@ def _flags_told() -> None:
     def hashed(one: Flags) -> int:
         return hash(type(one))
 
-    Flags.__eq__, Flags.__hash__ = equal, hashed
+    def values(self: Flags) -> dict[str, object]:
+        return {**defaults, **self._values}
+
+    defaults = {name: option.default for name, option in Flags.options.items()}
+    Flags.__eq__, Flags.__hash__, Flags.values = equal, hashed, values
 
 
 def _own_functions_again() -> None:
@@ -69,6 +86,77 @@ def _own_functions_again() -> None:
         return self._build_impl(key, args, kws) if have is _MISSING else have
 
     template._get_impl = found
+
+
+def _resolved_again() -> None:
+    """Finds what a built-in function gives for some types once: for each `+` of each kernel numba would try all that
+    it knows of `+`."""
+    function: Any = BaseFunction
+    looked_up = function.get_call_type
+    known: dict[tuple[object, ...], tuple[object, Any, object]] = {}
+
+    def found(self: Any, context: object, args: tuple[Any, ...], kws: dict[str, object]) -> object:
+        if kws:
+            return looked_up(self, context, args, kws)
+        flags = ConfigStack.top_or_none()
+        told = "" if flags is None else repr([i for i in flags._values.items() if i[0] not in _OF_THE_CALLER])
+        key = id(self), id(context), told, *(kind._code for kind in args)
+        if key not in known:
+            signature = looked_up(self, context, args, kws)
+            known[key] = self, signature, self._impl_keys[signature.args]  # the function is kept, and so its id
+            return signature
+        _, signature, self._impl_keys[signature.args] = known[key]
+        return signature
+
+    function.get_call_type = found
+
+
+def _variables_of_blocks() -> None:
+    """Asks only for generators which variables live as a block begins: numba would find it out after each pass."""
+    whole = postproc.PostProcessor.run
+    transforms, lifetime = postproc.transforms, postproc.VariableLifetime
+
+    def run(self: postproc.PostProcessor, emit_dels: bool = False, extend_lifetimes: bool = False) -> None:
+        function = self.func_ir
+        if function.is_generator:
+            whole(self, emit_dels, extend_lifetimes)
+            return
+        function.blocks = transforms.canonicalize_cfg(function.blocks)
+        function.variable_lifetime, function.generator_info = lifetime(function.blocks), None
+        if emit_dels:
+            self._insert_var_dels(extend_lifetimes=extend_lifetimes)
+
+    postproc.PostProcessor.run = run
+
+
+def _parts_one_by_one() -> None:
+    """Lists the variables of an instruction by the types of its parts: numba asks each of five questions in a call of
+    its own."""
+    sorts: dict[type, int] = {}
+    nothing, variable, instruction, several, named = range(5)
+
+    def sort_of(kind: type) -> int:
+        bases = (ir.Var, variable), (ir.Inst, instruction), ((list, tuple), several), (dict, named)
+        sort = next((sort for base, sort in bases if issubclass(kind, base)), nothing)
+        return sorts.setdefault(kind, sort)
+
+    def gather(parts: Iterable[Any], out: list[ir.Var]) -> None:
+        for part in parts:
+            kind = type(part)
+            sort = sorts[kind] if kind in sorts else sort_of(kind)
+            if sort == variable:
+                out.append(part)
+            elif sort == instruction:
+                out += part.list_vars()
+            elif sort:
+                gather(part if sort == several else part.values(), out)
+
+    def listed(self: ir.Inst, told: object) -> list[ir.Var]:
+        out: list[ir.Var] = []
+        gather((told,), out)
+        return out
+
+    ir.Inst._rec_list_vars = listed
 
 
 def _events() -> None:

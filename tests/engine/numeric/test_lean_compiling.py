@@ -1,10 +1,14 @@
 """Compiling leaves out what no kernel needs; what it tells, refuses and compares stays right."""
 
+import operator
+
 import numpy as np
 import pytest
-from numba import njit
-from numba.core import event
+from numba import njit, types
+from numba.core import event, ir
 from numba.core.compiler import Flags
+from numba.core.errors import NumbaError
+from numba.core.registry import cpu_target
 from numba.core.typing import templates
 
 from engine.numeric import lean_compiling
@@ -65,6 +69,28 @@ def test_what_kernels_are_compiled_with_is_compared_by_value():
     one.nrt = not other.nrt
     assert one != other
     assert one != 1
+
+
+@pytest.mark.parametrize("kind", [types.int64, types.float32, types.boolean])
+def test_what_a_built_in_function_gives_is_found_once_and_is_what_numba_finds(kind):
+    context = cpu_target.typing_context
+    added = context.resolve_value_type(operator.add)
+    found = added.get_call_type(context, (kind, types.float64), {})
+    assert added.get_call_type(context, (kind, types.float64), {}) is found
+    assert found == types.float64(types.float64, types.float64)
+    assert added.get_impl_key(found) is operator.add
+    for wrong in (types.none, types.undefined):
+        with pytest.raises(NumbaError):
+            added.get_call_type(context, (kind, wrong), {})
+
+
+def test_the_variables_of_an_instruction_are_listed_in_its_order():
+    where = ir.Loc("nowhere", 1)
+    one, two, three = (ir.Var(None, name, where) for name in ("one", "two", "three"))
+    call = ir.Expr.call(one, [two, ir.Expr.getattr(three, "x", where)], (("name", one),), where)
+    assert call.list_vars() == [one, two, three, one]
+    assert ir.Assign(call, three, where).list_vars() == [one, two, three, one, three]
+    assert ir.Assign(ir.Const(1, where), two, where).list_vars() == [two]
 
 
 def test_leaving_out_twice_does_no_harm_and_what_numba_lacks_is_left_alone(monkeypatch):
