@@ -5,6 +5,8 @@ A record keeps its value: its data are made, or read, when somebody asks for the
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Iterator
 
 import numpy as np
@@ -24,6 +26,7 @@ _SMALL = 2 << 10  # bytes of data that are not worth it
 _OF_LATE = 32  # commits: what these stored is most likely read next
 _AT_ONCE = 1 << 20  # bytes that are looked for in one piece of work
 _LOOKS = 1 << 13  # records that are looked at in one
+_TIMED = 64  # of them, after which the clock is looked at, too; it is as soon as one was made smaller
 _GROWN = 32 << 20  # bytes that the process grows by before all are looked through again
 
 
@@ -52,11 +55,13 @@ class Paging:
         if self._found is None and root is not self._root and grown:
             self._root, self._found = root, _freed(root, level)
 
-    def step(self, size: int = _AT_ONCE) -> None:
-        """Frees as many bytes, or all that are wanted, or all that there are; or looks at so many records."""
-        least = max(self.wanted - size, 0)
-        for _ in range(_LOOKS):
-            if self.wanted <= least:
+    def step(self, size: int = _AT_ONCE, seconds: float = math.inf) -> None:
+        """Frees as many bytes, or all that are wanted, or all that there are; or looks at so many records, or for so
+        many seconds of the processor: the last of them may take longer."""
+        least, end, freed = max(self.wanted - size, 0), time.thread_time() + seconds, None
+        for looks in range(_LOOKS):
+            timed = freed or looks % _TIMED == 0
+            if self.wanted <= least or (timed and time.thread_time() >= end):
                 return
             freed = None if self._found is None else next(self._found, None)
             if freed is None:
@@ -77,26 +82,29 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
                 yield from (put_page_away(page, pyramid.depth - _OF_LATE) for page in stored.pages.values())
     for late in (False, True):
         for pyramid in held:
+            newest = pyramid.depth - _OF_LATE
             for record in _records(pyramid, level):
-                old = record.depth <= pyramid.depth - _OF_LATE
-                plain = isinstance(record.held, np.ndarray | EvenPlanes | SparsePlanes)
-                worth = (late or old) and plain and record.held.nbytes >= _SMALL
-                yield encode(record, None) if worth else 0
+                yield encode(record, None) if (late or record.depth <= newest) and _is_worth(record) else 0
     for pyramid in held:
         for record in _records(pyramid, level):
-            yield put_away(record.held) if isinstance(record.held, CodedData) else 0
+            yield put_away(record.held) if record.there and isinstance(record.held, CodedData) else 0
     grown = [tile for layer in layers(root) for tile in growths.tiles_of(layer.growth)]
     yield from map(encode_tile, grown)
     for tile in grown:
         yield put_away(tile.held) if isinstance(tile.held, CodedTile) else 0
 
 
+def _is_worth(record: Record) -> bool:
+    """Tells whether a record is to be coded: it holds something, as it was stored."""
+    plain = record.there and isinstance(record.held, np.ndarray | EvenPlanes | SparsePlanes)
+    return plain and record.held.nbytes >= _SMALL
+
+
 def _records(pyramid: Pyramid, level: int | None) -> Iterator[Record]:
-    """Yields all records that hold something, those of the levels farthest from one first."""
+    """Yields all records in memory, those of the levels farthest from one first."""
     for k in _farthest_first(pyramid, level):
         stored = pyramid.levels[k]
-        here = stored.here() if isinstance(stored, PagedLevel) else stored.values()
-        yield from (record for record in here if record.there)
+        yield from stored.here() if isinstance(stored, PagedLevel) else stored.values()
 
 
 def _farthest_first(pyramid: Pyramid, level: int | None) -> list[int]:

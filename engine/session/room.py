@@ -21,6 +21,7 @@ _PASSING_PART = 4  # and of the budget such a part
 _GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
 _GROWN_PART = 16  # or such a part of what it took: a look for what is free takes the longer the more there is
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
+_UNFELT = 0.02  # seconds of the processor that a command may take longer for it, which no hand feels
 _SPARED_PARTS = 4  # of what it may take: where but one of them is left, pages are spared until two are
 _AGAIN = 2.0  # seconds after which it is, at the latest
 _REST = 50  # of the time that a look took, such a multiple of it
@@ -49,6 +50,7 @@ class Room(Owned):
         self._left = 0  # bytes resident when it was looked after last
         self._looked = -_AGAIN  # when that was
         self._took = 0.0  # seconds, then
+        self._since = 0.0  # seconds of this thread's processor until it was asked for last
         self._evicted = 0  # bytes that the cache had evicted when pages were given back at rest
         self._settled = 0  # bytes resident then, or fewer since
         self._sparing = False  # whether pages of large arrays go back as soon as they are freed
@@ -56,17 +58,26 @@ class Room(Owned):
 
     def keep_within(self, root: Group) -> None:
         """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
-        process takes more than the budget."""
+        process takes more than the budget: by and by, so that nothing that is done takes much longer for it."""
         most, held = _most(), memory.resident()
         self._settled = min(self._settled, held)
         self._grown = held - self._settled > self._worth(_GROWN)
         self._spare(held, most)
         if held <= most:
             self.history.tight = False
-        if not self._due(held, most):
-            if held < most // 2:  # beyond, every small page counts
-                large_pages.ask_ahead(held)
-            return
+        if self._due(held, most):
+            self._page(self._made_room(root, most) > _passing() // 2)
+            self._left = memory.resident()
+            self._took = time.monotonic() - self._looked
+        elif self._paging.wanted > 0:
+            self._page(False)
+        if held < most // 2:  # beyond, every small page counts
+            large_pages.ask_ahead(held)
+        self._since = time.thread_time()
+
+    def _made_room(self, root: Group, most: int) -> int:
+        """Gives free pages back, and lets go of what can be made again where that is not enough; returns the bytes that
+        the process takes beyond `most` still, which records are to give from now on."""
         large_pages.forgo()
         memory.give_back()
         cache, over = self._cache, memory.resident() - most
@@ -80,9 +91,13 @@ class Room(Owned):
             memory.give_back()
             over = memory.resident() - most
         self._paging.want(root, cache.level, max(over, 0))
-        self._paging.step(_PAGED_AT_ONCE)
-        self._left = memory.resident()
-        self._took = time.monotonic() - self._looked
+        return over
+
+    def _page(self, crowded: bool) -> None:
+        """Makes records smaller for as long as took what was done since it was asked for last, so that it keeps up with
+        what is stored; never long, unless the process is crowded."""
+        worked = time.thread_time() - self._since
+        self._paging.step(_PAGED_AT_ONCE, worked if crowded else min(worked, _UNFELT))
 
     def _spare(self, held: int, most: int) -> None:
         """Has pages of large arrays go back as soon as they are freed where little room is left, which is slower."""
@@ -122,7 +137,7 @@ class Room(Owned):
     def step(self) -> None:
         """Does the next piece of it."""
         if self._paging.wanted > 0:
-            self._paging.step()
+            self._paging.step(seconds=_UNFELT / 2)
         elif self.history.pending:
             self.history.step()
         else:

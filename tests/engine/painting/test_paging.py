@@ -21,9 +21,11 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import paging
+from engine.session import room as rooms
 from engine.session.coding import coded_records, paged_records
 from engine.session.coding.coded_records import CodedData
 from engine.session.paging import Paging
+from engine.session.room import Room
 from engine.session.session import Session
 
 stroke = partial(stepped.stroke, radius=9.0)
@@ -184,6 +186,28 @@ def test_one_piece_of_work_looks_at_so_many_records(monkeypatch):
         pages.step()
         steps += 1
     assert steps > 2 * len(list(records(session.painting)))
+
+
+@pytest.mark.parametrize(("beyond", "longest"), [(20, 0.02), (800, 0.2)])
+def test_paging_is_spread_over_commands_none_of_which_takes_much_longer(monkeypatch, beyond, longest):
+    """Unless the process takes far too much."""
+    session, now, took = begun(), [0.0], []
+    for n in range(12):
+        session.do(stroke(n, n % 3))
+    before, root = contents(session.painting), session.painting.root
+    monkeypatch.setattr(paging, "encode", lambda *told: (now.append(now[-1] + 0.006), coded_records.encode(*told))[1])
+    monkeypatch.setattr("time.thread_time", lambda: now[-1])
+    monkeypatch.setattr(rooms, "_most", lambda: memory.resident() - (beyond << 20))
+    room = Room(session.cache, session.history)
+    for worked in (0.2, *(0.01, 0.2, 0.0) * 40):
+        now.append(now[-1] + worked)
+        start = now[-1]
+        room.keep_within(root)
+        took.append((worked, now[-1] - start))
+    assert all(spent < min(worked, longest) + 0.007 for worked, spent in took)
+    assert (max(spent for _, spent in took) > 0.03) == (longest > 0.03)
+    assert all(isinstance(record.held, CodedData) or record.data.nbytes < 2048 for record in records(session.painting))
+    assert contents(session.painting) == before
 
 
 def test_records_stay_in_memory_where_the_disk_is_full(disk, monkeypatch):
