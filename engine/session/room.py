@@ -66,7 +66,8 @@ class Room(Owned):
         if held <= most:
             self.history.tight = False
         if self._due(held, most):
-            self._page(self._made_room(root, most) > _passing() // 2)
+            if self._made_room(root, most) > _passing() // 2:
+                self._page(True)  # else by and by, from the next command on
             self._left = memory.resident()
             self._took = time.monotonic() - self._looked
         elif self._paging.wanted > 0:
