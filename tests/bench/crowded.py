@@ -1,8 +1,9 @@
 """Paintings larger than memory: `python -m bench.crowded --strokes 1000000 --budget 512` prints JSON objects.
 
 As many strokes as are asked for lie side by side, each as the residuals of one that was painted, at its level and at
-all coarser ones; none shares its data with another.  Told is what then comes of strokes among them, of views at many
-levels, of saving and of opening: processor seconds, and the megabytes that the process holds.
+all coarser ones; none shares its data with another.  Told is what then comes of strokes among them, of taking these
+back, of views at many levels, of saving and of opening, and of all that on what was opened: processor seconds, and the
+megabytes that the process holds, with the most that it ever held.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import argparse
 import json
 import math
 import os
+import resource
 import tempfile
 import time
 from collections.abc import Iterator
@@ -48,6 +50,22 @@ def main(count: int, filed: bool) -> Iterator[dict[str, Any]]:
     start = time.process_time()
     side = _crowd(session, count)
     yield {"strokes": side * side, "built": time.process_time() - start} | _held(session)
+    yield from _worked(session, side, rng)
+    if not filed:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "crowded.ora")
+        yield _saved(session, path)
+        del session  # as the window does where another painting takes its place
+        start, wall = time.process_time(), time.monotonic()
+        session = Session(open_painting(path).painting)
+        yield {"opened": time.process_time() - start, "wall": time.monotonic() - wall} | _held(session)
+        yield from _worked(session, side, rng)
+        yield _saved(session, path)
+
+
+def _worked(session: Session, side: int, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
+    """Paints some strokes, takes half of them back, and looks at the middle at many levels."""
     times = []
     for _ in range(STROKES):
         start = time.process_time()
@@ -55,6 +73,11 @@ def main(count: int, filed: bool) -> Iterator[dict[str, Any]]:
         times.append(1e3 * (time.process_time() - start))
         _rest(session)
     yield {"stroke": float(np.median(times)), "worst": max(times)} | _held(session)
+    start = time.process_time()
+    for _ in range(STROKES // 2):
+        session.do(c.Undo(1))
+        _rest(session)
+    yield {"undone": 1e3 * (time.process_time() - start) / (STROKES // 2)} | _held(session)
     for level in range(0, -side.bit_length() - 1, -1):
         start, at = time.process_time(), (side * TILE >> 1) >> -level
         pyramid = next(layers.layers(session.painting.root)).pyramid
@@ -63,8 +86,6 @@ def main(count: int, filed: bool) -> Iterator[dict[str, Any]]:
         session.room.keep_within(session.painting.root)
         _rest(session)
         yield {"level": level, "seen": seen} | _held(session)
-    if filed:
-        yield from _filed(session)
 
 
 def _stroke(session: Session, at: tuple[int, int], rng: np.random.Generator) -> None:
@@ -110,21 +131,17 @@ def _later(change: Change | None) -> Change:
     return replace(change, depth=change.depth + OF_LATE)
 
 
-def _filed(session: Session) -> Iterator[dict[str, Any]]:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "crowded.ora")
-        start, wall = time.process_time(), time.monotonic()
-        save(path, Snapshot(session.painting, session.recording()))
-        size = path.stat().st_size
-        yield {"saved": time.process_time() - start, "wall": time.monotonic() - wall, "bytes": size} | _held(session)
-        start, wall = time.process_time(), time.monotonic()
-        open_painting(path)
-        yield {"opened": time.process_time() - start, "wall": time.monotonic() - wall, "resident": resident() >> 20}
+def _saved(session: Session, path: Path) -> dict[str, Any]:
+    start, wall = time.process_time(), time.monotonic()
+    save(path, Snapshot(session.painting, session.recording()))
+    took = {"saved": time.process_time() - start, "wall": time.monotonic() - wall, "bytes": path.stat().st_size}
+    return took | _held(session)
 
 
 def _held(session: Session) -> dict[str, Any]:
     records = sum(layer.pyramid.nbytes for layer in layers.layers(session.painting.root))
-    return {"resident": resident() >> 20, "records": records >> 20}
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss >> 10
+    return {"resident": resident() >> 20, "most": most, "records": records >> 20}
 
 
 if __name__ == "__main__":
