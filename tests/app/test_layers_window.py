@@ -50,6 +50,8 @@ def test_another_active_layer_is_brought_into_sight(program):
     for count in range(1, 10):
         app.click("add_layer")
         app.box(f"Layer {count}")
+        if count == 5:
+            app.box("Layer 1")  # as many are in sight with the ink mixer open
     app.until_gone("Layer 1")  # below the end of the list
     app.keys(*["ctrl+z"] * 8)
     app.box("Layer 1")

@@ -35,7 +35,7 @@ def test_a_texture_like_the_view_is_ink(program):
     assert changed(mixed[CANVAS], thrown[CANVAS]) < 50  # nothing was painted
 
     # Used as ink, it is painted with.
-    mixer = slice(app.box("Ink mixer")[3], app.box("Add texture")[1]), slice(*app.box("Add texture")[::2])
+    mixer = slice(app.box("Ink mixer")[3], app.box("below ink")[1]), slice(*app.box("Ink mixer")[::2])
     app.click("Use as ink")
     app.until(lambda screen: changed(screen[mixer], mixed[mixer]) > 300)
     app.stroke(*[(x, y + 180) for x, y in LINE])

@@ -32,7 +32,7 @@ def test_a_solid_is_turned_and_its_slice_is_ink(program, tmp_path):
     app.do("mouseup", 1)
     app.until(lambda screen: app.box("clean") and changed(screen[place], wood[place]) > 3000)
     app.keys("ctrl+z")
-    mixer = slice(app.box("Ink mixer")[3], app.box("Add texture")[1]), slice(*app.box("Add texture")[::2])
+    mixer = slice(app.box("Ink mixer")[3], app.box("below ink")[1]), slice(*app.box("Ink mixer")[::2])
     before = app.parked()
     app.click("Use as ink")
     app.until(lambda screen: changed(screen[mixer], before[mixer]) > 300)

@@ -50,7 +50,7 @@ def test_a_dropped_picture_gets_advice_and_is_painted_with(program, pebbles):
     app.click("Set straight", where)
     app.until(lambda screen: screen[cells[3]].std() > 6 and changed(screen[cells[3]], before) > 500)
     app.click("doctor objects", where)
-    mixer = slice(app.box("Ink mixer")[3], app.box("Add texture")[1]), slice(*app.box("Add texture")[::2])
+    mixer = slice(app.box("Ink mixer")[3], app.box("below ink")[1]), slice(*app.box("Ink mixer")[::2])
     app.until(lambda screen: brown(screen[mixer]))  # it is on the brush
     empty = app.settled()
     app.stroke(*LINE)

@@ -16,7 +16,7 @@ def gradient_slider(
     label: str, value: float, stops: Sequence[tuple[float, float, float]], hint: str
 ) -> tuple[bool, float]:
     """Returns a bar of colours with a marker; value 0..1.  (changed, value)"""
-    width, height = imgui.get_content_region_avail().x, imgui.get_frame_height() * 0.72
+    width, height = imgui.get_content_region_avail().x, imgui.get_frame_height() * 0.66
     corner = imgui.get_cursor_screen_pos()
     imgui.invisible_button(label, ImVec2(width, height), imgui.ButtonFlags_.enable_nav)
     changed = imgui.is_item_active()

@@ -24,7 +24,8 @@ from engine.brush.settings import COMPONENTS_CAP, Brush, Component
 from engine.studio.requests import Swatch
 
 DEEPER = 4  # levels: how far the second half of the picture is zoomed in
-SWATCH_WIDTH, SWATCH_HEIGHT = 135, 56  # of each half, points
+SWATCH_WIDTH, SWATCH_HEIGHT = 135, 46  # of each half, points
+_TITLE = 7.5  # of a letter: what the header's title takes
 _COLOURS = {"white": "#ffffff", "rock": "#7a6f63", "stripes": "#20242c", "sawtooth": "#f0e2c0", "squares": "#f2f2f2"}
 
 
@@ -45,8 +46,10 @@ class InkPanel:
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
-        if not w.section("Ink mixer", "Textures in the paint; they show new detail as you zoom in"):
+        corner, room = imgui.get_cursor_pos(), imgui.get_content_region_avail().x
+        if not w.section("Ink mixer", "Textures in the paint; they show new detail as you zoom in", shared=True):
             return
+        self._adder(desk, corner.x + room)
         self._picture(desk)
         self._welcome(desk)
         removed = None
@@ -68,7 +71,6 @@ class InkPanel:
             if reshaped:
                 desk.hand.change(shaping=curve)
         self._extent(desk)
-        self._adder(desk)
 
     def _picture(self, desk: Desk) -> None:
         """Draws the ink as painted, and beside it 16 times nearer."""
@@ -150,15 +152,22 @@ class InkPanel:
             if changed:
                 desk.hand.change(extent=on)
 
-    def _adder(self, desk: Desk) -> None:
-        full = len(desk.hand.brush.ink) >= COMPONENTS_CAP
-        if w.text_button(
-            f"{icons.ADD}  Add texture",
-            "Stir a texture into the paint",
-            enabled=bool(desk.known.tables.kinds) and not full,
-            width=-1,
-        ):
+    def _adder(self, desk: Desk, right: float) -> None:
+        """Draws the button at the right end of the header just drawn: it stays where it is however many are stirred
+        in."""
+        full, below = len(desk.hand.brush.ink) >= COMPONENTS_CAP, imgui.get_cursor_pos()
+        label, padding = f"{icons.ADD}  Add texture", ImVec2(8, 1) * imgui.get_style().font_scale_dpi
+        room = right - imgui.get_style().window_padding.x - imgui.get_font_size() * _TITLE
+        wide = min(said.calc_text_size(label).x + 2 * padding.x, room)
+        imgui.same_line(right - wide)
+        imgui.set_cursor_pos_y(imgui.get_cursor_pos_y() - 2)
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, padding)
+        enabled = bool(desk.known.tables.kinds) and not full
+        pressed = w.text_button(label, "Stir a texture into the paint", enabled=enabled, width=wide)
+        imgui.pop_style_var()
+        if pressed:
             imgui.open_popup("add texture")
+        imgui.set_cursor_pos(below)
         texture_choice.limit(desk)
         if not imgui.begin_popup("add texture"):
             return

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
@@ -53,9 +53,16 @@ class LayerSliders:
     def __init__(self) -> None:
         self._opacity, self._scale, self._sea = LayerSlider(), LayerSlider(), LayerSlider()
 
-    def draw(self, desk: Desk, row: LayerRow | None) -> None:
-        """Draws them into the present window."""
+    def draw_opacity(self, desk: Desk, row: LayerRow | None) -> None:
+        """Draws how opaque it is into what is left of the present line."""
+        imgui.push_style_var(imgui.StyleVar_.cell_padding, ImVec2(0, 0))
+        imgui.begin_child("opacity", ImVec2(0, imgui.get_frame_height()))
         self._opacity.draw(desk, row, row.opacity * 100 if row else 100.0, _OPACITY)
+        imgui.end_child()
+        imgui.pop_style_var()
+
+    def draw_land(self, desk: Desk, row: LayerRow | None) -> None:
+        """Draws how high and how wet it is, where it is the land's height."""
         if row is None or not row.height or row.group or row.shows is not None:
             return
         wide = float(desk.known.frame.width)

@@ -21,7 +21,7 @@ from engine.studio.results import LayerRow, Ready
 
 _PAYLOAD = "layer"
 _MOUSE = "Drag to reorder, double-click to rename, right-click for more\nCtrl or Shift: choose several"
-_FIELD = 7.0  # of a letter: the width of the search field
+_FIELD = 6.0  # of a letter: the width of the search field
 _ALSO = 0.6  # how strongly a row is lit that is chosen along with the active one
 _USUAL = "src-over", "Normal"  # the blend mode of a new layer, and its title
 
@@ -44,7 +44,7 @@ class LayersPanel:
         corner, room = imgui.get_cursor_pos(), imgui.get_content_region_avail().x
         if not w.section("Layers", shared=True):
             return
-        self._search(corner.x + room)
+        self._header(desk, corner.x + room)
         rows = desk.known.scene.layers if desk.known.scene else ()
         imgui.begin_disabled(not desk.known.ready)
         self._settings(desk, desk.known.active)
@@ -52,44 +52,53 @@ class LayersPanel:
         self._buttons(desk)
         imgui.end_disabled()
 
-    def _search(self, right: float) -> None:
-        """Draws the field at the right end of the header just drawn."""
-        wide, below = imgui.get_font_size() * _FIELD, imgui.get_cursor_pos()
-        imgui.same_line(right - wide)
+    def _header(self, desk: Desk, right: float) -> None:
+        """Draws the field and the locks at the right end of the header just drawn."""
+        scale, below = imgui.get_style().font_scale_dpi, imgui.get_cursor_pos()
+        side, gap = imgui.get_text_line_height() * 1.25, 4 * scale
+        wide = imgui.get_font_size() * _FIELD
+        imgui.same_line(right - wide - 2 * (side + gap))
         imgui.set_cursor_pos_y(imgui.get_cursor_pos_y() - 2)
-        imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(6, 1) * imgui.get_style().font_scale_dpi)
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(6, 1) * scale)
         imgui.set_next_item_width(wide)
         flags = imgui.InputTextFlags_.escape_clears_all
         _, self._find = said.input_text_with_hint("##find layer", "Find", self._find, flags)
         imgui.pop_style_var()
         w.named("find layer")
         w.tooltip("Only layers with this in their names; Escape shows all again", beside=True)
+        self._locks(desk, desk.known.active, side, gap)
         imgui.set_cursor_pos(below)
 
+    def _locks(self, desk: Desk, row: LayerRow | None, side: float, gap: float) -> None:
+        """Draws what of the active layer can be locked."""
+        top = imgui.get_item_rect_min().y - imgui.get_style().font_scale_dpi
+        imgui.begin_disabled(row is None or not desk.known.ready)
+        locked, alpha = bool(row and row.locked), bool(row and row.alpha_locked)
+        imgui.same_line(0, gap)
+        imgui.set_cursor_screen_pos(ImVec2(imgui.get_cursor_screen_pos().x, top))
+        hint = "Keep transparency: paint only where there is paint"
+        if w.icon_button("alpha", icons.ALPHA_LOCK, hint, on=alpha, size=side) and row:
+            desk.post(Do(c.SetLayer(row.name, alpha_locked=not alpha)))
+        imgui.same_line(0, gap)
+        imgui.set_cursor_screen_pos(ImVec2(imgui.get_cursor_screen_pos().x, top))
+        sign, hint = icons.LOCK if locked else icons.UNLOCK, "Lock the layer against painting"
+        if w.icon_button("lock", sign, hint, on=locked, size=side) and row:
+            desk.post(Do(c.SetLayer(row.name, locked=not locked)))
+        imgui.end_disabled()
+
     def _settings(self, desk: Desk, row: LayerRow | None) -> None:
+        """Draws how it mixes and how opaque it is, on one line: the rows have what is left of the panel."""
         imgui.begin_disabled(row is None)
-        side = imgui.get_frame_height()
-        width = imgui.get_content_region_avail().x - 2 * (side + imgui.get_style().item_spacing.x)
+        half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
         options = blend_titles(desk.known.tables)
         blend = w.choice(
-            "blend", row.blend if row else _USUAL[0], options, "How the layer mixes with those below", width
+            "blend", row.blend if row else _USUAL[0], options, "How the layer mixes with those below", half
         )
         if row and blend:
             desk.post(Do(c.SetLayer(row.name, blend=blend)))
         imgui.same_line()
-        locked, alpha = bool(row and row.locked), bool(row and row.alpha_locked)
-        if (
-            w.icon_button("alpha", icons.ALPHA_LOCK, "Keep transparency: paint only where there is paint", on=alpha)
-            and row
-        ):
-            desk.post(Do(c.SetLayer(row.name, alpha_locked=not alpha)))
-        imgui.same_line()
-        if (
-            w.icon_button("lock", icons.LOCK if locked else icons.UNLOCK, "Lock the layer against painting", on=locked)
-            and row
-        ):
-            desk.post(Do(c.SetLayer(row.name, locked=not locked)))
-        self._sliders.draw(desk, row)
+        self._sliders.draw_opacity(desk, row)
+        self._sliders.draw_land(desk, row)
         imgui.end_disabled()
 
     def _list(self, desk: Desk, rows: tuple[LayerRow, ...]) -> None:
