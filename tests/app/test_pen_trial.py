@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.desk.preferring.pen_trial import PenTrial, motion_measured
+from app.desk.preferring.pen_trial import PenTrail, PenTrial, motion_measured
 from app.input.events import PenEvent
 
 
@@ -51,3 +51,25 @@ def test_a_pen_that_is_plugged_in_or_out_is_told_and_those_of_the_start_are_not(
     assert trial.heard("XInput 2", ("One", "Two")) == "Pen found: Two"
     assert trial.heard("XInput 2", ("One", "Two")) == ""
     assert trial.heard("XInput 2", ("Two",)) == "Pen gone: One"
+
+
+def test_a_trail_has_every_report_of_the_last_stroke_however_few_frames_there_are():
+    trial, trail, area = PenTrial(on=True), PenTrail(), (100.0, 50.0, 200.0, 80.0)
+    told = [
+        (110, 60, 0.0),
+        (120, 60, 0.2),
+        (130, 60, 0.4),
+        (140, 60, 0.0),
+        (150, 70, 0.5),
+        (160, 70, 0.6),
+        (500, 70, 0.7),
+    ]
+    for n, (x, y, pressure) in enumerate(told, 1):
+        event = PenEvent("move", x, y, pressure, time=float(n), pen=True)
+        trial.take(event, event)
+        if n == 5:
+            trail.follow(trial.reports, area)
+            assert trail.dots == [(50, 20, 0.5)]
+    trail.follow(trial.reports, area)
+    trail.follow(trial.reports, area)
+    assert trail.dots == [(50, 20, 0.5), (60, 20, 0.6)]

@@ -14,6 +14,7 @@ from app.input.events import PenEvent
 SECONDS = 4.0  # that are shown
 _MEASURED = 1.0  # seconds of motion of which rate and jitter are told
 _MOST = 4096  # reports that are kept
+_DOTS = 400  # of a trail at most
 _PAUSE = 0.1  # seconds without a report that end a motion
 
 
@@ -71,6 +72,35 @@ class PenTrial:
             return ""
         came, gone = ([name for name in one if name not in other] for one, other in ((pens, before), (before, pens)))
         return f"Pen found: {', '.join(came)}" if came else f"Pen gone: {', '.join(gone)}" if gone else ""
+
+
+class TrailDot(NamedTuple):
+    """A place of an area, pixels from its corner, and the pressure felt there."""
+
+    x: float
+    y: float
+    pressure: float
+
+
+class PenTrail:
+    """The last stroke in an area: a dot for every report, however few frames there are."""
+
+    def __init__(self) -> None:
+        self.dots: list[TrailDot] = []
+        self._heard, self._down = 0.0, False  # the time of the last report that was taken, and whether the pen lay down
+
+    def follow(self, reports: Sequence[Report], area: tuple[float, float, float, float]) -> None:
+        """Takes what a pen told since the last call; `area`: its left and upper edge, width and height."""
+        for report in [report for report in reports if report.time > self._heard]:
+            x, y = report.x - area[0], report.y - area[1]
+            lies = report.pressed > 0 and 0 <= x < area[2] and 0 <= y < area[3]
+            if lies:
+                self.lay(x, y, report.felt, begins=not self._down)
+            self._down, self._heard = lies, report.time
+
+    def lay(self, x: float, y: float, pressure: float, *, begins: bool) -> None:
+        """Leaves a dot; the first of a stroke takes the place of the stroke before."""
+        self.dots = [*([] if begins else self.dots[1 - _DOTS :]), TrailDot(x, y, pressure)]
 
 
 def motion_measured(reports: Sequence[Report]) -> Measured | None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.actions.actions import keyed
 from app.desk.desk import Desk
+from app.desk.preferring.pen_trial import PenTrail
 from app.desk.preferring.preferring import keep_preferences, prefer
 from app.desk.proofing.proof_work import BY_NONE, BY_SYSTEM
 from app.language import said
@@ -28,20 +28,11 @@ _PAGES = (
     ("memory", "Memory", "What paintings may take"),
     ("files", "Files", "Earlier versions and the bin"),
 )
-_DOTS = 400  # of the test area at most
 _ROOM = 900, 560  # points of a window that panels and dialogs want
 _PERCENTS = (75, 100, 125, 150, 175, 200, 250, 300)
 _FILE = "file"  # in a list of profiles, that another one is asked for
 _MEMBERS = {"screen profile": "profile", "proof profile": "proof"}  # of the preferences
 _LATER = "From the next start on"
-
-
-class _Dot(NamedTuple):
-    """A place of the test area, pixels from its corner, and the pressure felt there."""
-
-    x: float
-    y: float
-    pressure: float
 
 
 class PreferencesDialog:
@@ -50,7 +41,7 @@ class PreferencesDialog:
     title = "Preferences"
 
     def __init__(self, desk: Desk) -> None:
-        self._page, self._dots = "pen", list[_Dot]()
+        self._page, self._trail = "pen", PenTrail()
         self._curve = CurveEditor(smooth=False)
         self._curve.by_hand = False
 
@@ -62,7 +53,7 @@ class PreferencesDialog:
         imgui.spacing()
         tall = min(_TALL * em, imgui.get_main_viewport().work_size.y - 9 * em)
         imgui.begin_child("page", ImVec2(_WIDE * em, tall))
-        if self._page != "tester":
+        if self._page not in ("pen", "tester"):
             desk.trial.leave()
         pages = {"pen": self._pen, "tester": draw_tester, "display": _display, "memory": _memory, "files": _files}
         pages[self._page](desk)
@@ -109,15 +100,14 @@ class PreferencesDialog:
         imgui.invisible_button("test area", size)
         w.named("test area")
         w.tooltip("Draw with the pen: discs are as wide as the pressure is felt")
-        if imgui.is_item_active():
-            if imgui.is_item_activated():
-                self._dots.clear()
-            self._dots.append(_Dot(at.x - corner.x, at.y - corner.y, at.pressure if at.pen else 1.0))
-            del self._dots[:-_DOTS]
+        desk.trial.on = True
+        self._trail.follow(desk.trial.reports, (corner.x, corner.y, size.x, size.y))
+        if imgui.is_item_active() and not at.pen:
+            self._trail.lay(at.x - corner.x, at.y - corner.y, 1.0, begins=imgui.is_item_activated())
         painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size.x, corner.y + size.y)
         painter.add_rect_filled(corner, end, theme.packed((0.9,) * 3), imgui.get_style().frame_rounding)
         painter.push_clip_rect(corner, end, True)
-        for dot in self._dots:
+        for dot in self._trail.dots:
             place = ImVec2(corner.x + dot.x, corner.y + dot.y)
             painter.add_circle_filled(place, max(0.5, dot.pressure * em), theme.packed((0.15,) * 3), 24)
         painter.pop_clip_rect()
