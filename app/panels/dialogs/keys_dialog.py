@@ -110,7 +110,10 @@ class Keys:
         if keys != usual_keys(row):
             imgui.same_line(_WIDE * em - 2.6 * em)
             shown = ", ".join(usual_keys(row)) or "none"
-            if w.icon_button("reset", icons.UNDO, f"As it comes: {shown}", size=1.4 * em):
+            side = (
+                imgui.get_frame_height() - imgui.get_style().frame_padding.y
+            )  # or its row would be higher than others
+            if w.icon_button("reset", icons.UNDO, f"As it comes: {shown}", size=side):
                 change_keys(desk, bound_with(desk.keys.bound, row, usual_keys(row)))
         imgui.pop_id()
 
@@ -157,7 +160,7 @@ class Keys:
         titles = [(name, row.title) for name, row in KEY_MAPS.items()] + own
         chosen = w.choice("key map", current, titles, "Ready-made maps; keys of brushes stay", 9 * em)
         if chosen and chosen != current:
-            self._told = take_map(desk, chosen, current)
+            self._told, self._pressed = take_map(desk, chosen, current), ""
         imgui.same_line()
         if w.text_button("Bring in…##keys", "Keys from a file"):
             desk.asked.show("keys from")
@@ -189,6 +192,7 @@ class Keys:
         changed = desk.keys.bound != self._before
         if w.text_button("Take back##keys", "As they were when the list was opened", enabled=changed):
             change_keys(desk, self._before)
+            self._pressed = ""
         return not (closes or desk.asked.dialog)
 
 
