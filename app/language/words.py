@@ -74,6 +74,9 @@ class Words:
             match = form.pattern.fullmatch(text)
             if match is not None:
                 yield self._filled(form.becomes, match.groupdict())
+        head, colon, rest = text.partition(": ")
+        if ": " in rest and (known := self.of(rest)) != rest and (title := self.of(head)) != head:
+            yield title + colon + known
         for between in (": ", ".  ", "; ", ", "):
             if between in text:
                 parts = text.split(between)

@@ -193,7 +193,7 @@ def _memory(held: Held) -> tuple[str, str, float, str]:
         return "", "", 0.0, ""
     known = sum(size for _, size in held.rows)
     rows = [*held.rows, ("The program itself", max(held.resident - known, 0))]
-    told = [f"{_megabytes(size):>6}  {name}" for name, size in rows if size >= _MEGABYTE or name == "Painting"]
+    told = [f"{_megabytes(size):>6}  {say(name)}" for name, size in rows if size >= _MEGABYTE or name == "Painting"]
     more = [f"Put away on disk: {_megabytes(held.disk)}"] if held.disk >= _MEGABYTE else []
     last = f"Paintings may take {_megabytes(held.budget)}; preferences.toml says how much"
     return _megabytes(held.resident), "\n".join(["Memory", *told, *more, last]), 0.0, ""

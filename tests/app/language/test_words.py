@@ -13,6 +13,7 @@ CATALOGUE = {
     "{count} more, {hint}": "noch {count}, {hint}",
     "Growing {part} %": "Wächst, {part} %",
     "Size": "Größe",
+    "A lag: the faster": "Verzug, je schneller",
     "{name} is “{title}” already": "{name} ist schon „{title}“",
 }
 
@@ -36,6 +37,7 @@ def german(monkeypatch):
         ("3 more, Size", "noch 3, Größe"),
         ("Growing 55 %", "Wächst, 55 %"),
         ("Ctrl+S is “Open” already", "Ctrl+S ist schon „Öffnen“"),
+        ("Size: A lag: the faster", "Größe: Verzug, je schneller"),
         ("Save the painting.  Open", "Das Bild sichern.  Öffnen"),
         ("Nothing of this", "Nothing of this"),
         ("", ""),
