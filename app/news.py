@@ -23,7 +23,7 @@ from app.trace import trace
 from engine.studio import results
 from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
-from engine.studio.moving.move_requests import BakeTold, Extent
+from engine.studio.moving.move_requests import BakeTold, Extent, PaintedTold
 from engine.studio.moving.sheet_records import CarriedSheets, Shown
 from engine.studio.past.past_records import Here
 from engine.studio.results import Result
@@ -98,6 +98,7 @@ HEARS: dict[type, Hear] = {
     Tried: lambda desk, tried, now: setattr(desk.adjusting, "best", tried),
     Extent: lambda desk, extent, now: desk.moving.told(extent),
     BakeTold: independence.ask,
+    PaintedTold: lambda desk, told, now: setattr(desk.export, "painted", told.rect),
     CarriedSheets: lambda desk, sheets, now: desk.moving.sheets.come(sheets),
     Shown: lambda desk, shown, now: desk.moving.sheets.shown(shown),
     results.Whole: lambda desk, whole, now: desk.show(whole),

@@ -17,7 +17,14 @@ COMPLETE = ("de", "fr")
 # What of the source draws, or is drawn; the rest speaks to the terminal, or to programs.
 SHOWN = (
     *("app/actions", "app/desk", "app/panels", "app/tools", "app/input", "app/land"),
-    *("app/cursor.py", "app/guide_marks.py", "app/window.py", "app/router.py", "app/faults/log.py"),
+    *(
+        "app/cursor.py",
+        "app/guide_marks.py",
+        "app/window.py",
+        "app/router.py",
+        "app/faults/log.py",
+        "app/theme/looks.py",
+    ),
     *("engine/brush/ops.py", "engine/brush/modes.py", "engine/brush/targets.py", "engine/brush/inputs.py"),
     *(
         "engine/brush/settings.py",

@@ -22,7 +22,7 @@ from engine.studio.land.land_records import LandResult
 from engine.studio.land.wear_records import WornTold
 from engine.studio.layer_rows import LayerRow as LayerRow
 from engine.studio.layer_rows import Shows as Shows
-from engine.studio.moving.move_requests import BakeTold, Extent
+from engine.studio.moving.move_requests import BakeTold, Extent, PaintedTold
 from engine.studio.moving.sheet_records import SheetResult
 from engine.studio.past.past_records import PastResult
 from engine.studio.selecting.ants_records import Ants
@@ -324,6 +324,7 @@ Result = (
     | PastResult
     | Extent
     | BakeTold
+    | PaintedTold
     | SheetResult
     | Tried
     | LandResult

@@ -57,6 +57,8 @@ def test_what_is_exported_is_the_frame_the_view_or_around_the_selection(finer):
     near = 2 * max(1, 2**-finer)  # a pixel at either side
     assert abs(rect.width / 2.0**finer - 500) <= near
     assert abs(rect.height / 2.0**finer - 450) <= near
+    screen.export.area, screen.export.painted = "painted", Rect(-50, 0, 200, 90)
+    assert export_place(screen) == (finer, Rect(-50, 0, 200, 90).zoomed(finer))
     screen.export.area = "selection"
     wish = export_wish(screen, Path("a.png"))
     assert (wish.level, wish.area) == (2 + finer, Rect(40, 80, 60, 100).zoomed(finer))
@@ -66,6 +68,8 @@ def test_where_nothing_is_selected_any_more_the_frame_is_exported():
     screen = desk()
     assert AREAS["selection"].of(screen) is None
     screen.export.area = "selection"
+    assert export_wish(screen, Path("a.png")).area is None
+    screen.export.area, screen.export.painted = "painted", Rect(0, 0, 0, 0)
     assert export_wish(screen, Path("a.png")).area is None
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from app.desk.desk import Desk
-from app.desk.exporting.export_state import EXPORT_FORMATS, FRAME_AREA
+from app.desk.exporting.export_state import EXPORT_FORMATS, FRAME_AREA, PAINTED_AREA
 from engine.numeric.address import Rect
 from engine.studio.requests import Export
 
@@ -15,10 +15,12 @@ _CHANNELS = 4
 
 
 class ExportArea(NamedTuple):
-    """A row: its `title` and `hint`; `of` gives its level and pixels there, None where there is no such thing."""
+    """A row: its `title` and `hint`; `of` gives its level and pixels there, None where there is no such thing, as
+    `lacking` tells."""
 
     title: str
     hint: str
+    lacking: str
     of: Callable[[Desk], tuple[int, Rect] | None]
 
 
@@ -33,6 +35,11 @@ def _view(desk: Desk) -> tuple[int, Rect]:
     return level, Rect(min(across), min(down), max(across) + 1, max(down) + 1)
 
 
+def _painted(desk: Desk) -> tuple[int, Rect] | None:
+    found = desk.export.painted
+    return None if found is None or found.empty else (0, found)
+
+
 def _selection(desk: Desk) -> tuple[int, Rect] | None:
     ants = desk.selecting.ants
     found = ants.measure if ants is not None and ants.selected and ants.bounded else None
@@ -40,9 +47,15 @@ def _selection(desk: Desk) -> tuple[int, Rect] | None:
 
 
 AREAS = {
-    FRAME_AREA: ExportArea("Frame", "The whole picture", _frame),
-    "view": ExportArea("View", "What you see of the canvas, at any depth", _view),
-    "selection": ExportArea("Selection", "The rectangle around what is selected", _selection),
+    FRAME_AREA: ExportArea("Frame", "The whole picture", "", _frame),
+    "view": ExportArea("View", "What you see of the canvas, at any depth", "", _view),
+    PAINTED_AREA: ExportArea("All paint", "What is painted and seen, beyond the frame, too", "No paint yet", _painted),
+    "selection": ExportArea(
+        "Selection",
+        "The rectangle around what is selected",
+        "Nothing is selected: draw a rectangle on the canvas with S",
+        _selection,
+    ),
 }
 
 

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from engine.light.light import Light
+from engine.numeric.address import Rect
 
 FINER = (-4, 8)  # levels from that of what is exported
 FRAME_AREA = "frame"  # the area that is always there
+PAINTED_AREA = "painted"  # the one that is asked for
 
 
 class Format(NamedTuple):
@@ -38,7 +40,8 @@ EXPORT_CHOICES = "area", "finer", "format", "transparent", "apart", "lit"  # wha
 class ExportState:
     """`area`: a row of `export_areas.AREAS`; `finer`: how many levels finer than that; `format`: a row of
     EXPORT_FORMATS; `transparent`: without the paper; `apart`: each layer by itself, in a file of its own; `lit`: as it
-    is in the light, `light`: in which."""
+    is in the light, `light`: in which; `painted`: how far reaches what is seen of the paint, pixels of level 0, None
+    until the engine has told it."""
 
     area: str = FRAME_AREA
     finer: int = 0
@@ -47,3 +50,4 @@ class ExportState:
     apart: bool = False
     lit: bool = False
     light: Light | None = None
+    painted: Rect | None = None

@@ -311,6 +311,16 @@ def swatch(name: str, rgb: tuple[float, float, float], hint: str, size: tuple[fl
     return pressed
 
 
+def dot(label: str, on: bool) -> bool:
+    """Draws one of several of which one is on; tells whether it was pressed."""
+    imgui.push_style_var(imgui.StyleVar_.frame_border_size, imgui.get_style().font_scale_dpi)
+    imgui.push_style_color(Col.border, theme.vec(theme.look.edge))
+    pressed = said.radio_button(label, on)
+    imgui.pop_style_color()
+    imgui.pop_style_var()
+    return pressed
+
+
 def tick(label: str, on: bool, hint: str) -> tuple[bool, bool]:
     """Returns a box to tick.  (changed, on)"""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(3, 3))

@@ -7,12 +7,13 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.desk.desk import Desk
 from app.desk.exporting.export_areas import AREAS, export_bytes, export_place
-from app.desk.exporting.export_state import EXPORT_FORMATS, FINER, FRAME_AREA
+from app.desk.exporting.export_state import EXPORT_FORMATS, FINER, FRAME_AREA, PAINTED_AREA
 from app.desk.folders import size_text
 from app.language import said
 from app.language.words import say
 from app.panels.controls import widgets as w
 from engine.checks.picture_sides import PICTURE_SIDE
+from engine.studio.moving.move_requests import AskPainted
 
 _WIDE = 24  # ems
 
@@ -24,7 +25,9 @@ class ExportDialog:
 
     def __init__(self, desk: Desk) -> None:
         desk.export.lit = desk.export.lit or desk.light.on
-        if AREAS[desk.export.area].of(desk) is None:
+        desk.export.painted = None
+        desk.post(AskPainted())
+        if desk.export.area != PAINTED_AREA and AREAS[desk.export.area].of(desk) is None:
             desk.export.area = FRAME_AREA
 
     def draw(self, desk: Desk) -> bool:
@@ -66,10 +69,10 @@ class ExportDialog:
                 imgui.same_line()
             there = row.of(desk) is not None
             imgui.begin_disabled(not there)
-            pressed = said.radio_button(row.title, desk.export.area == name)
+            pressed = w.dot(row.title, desk.export.area == name)
             imgui.end_disabled()
             w.named(f"export {name}")
-            w.tooltip(row.hint if there else "Nothing is selected")
+            w.tooltip(row.hint if there else row.lacking)
             if pressed and there:
                 desk.export.area, desk.export.finer = name, 0
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from engine.canvas.placing.pose import SourcePart
+from engine.numeric.address import Rect
 from engine.painting.layer_commands import BakePlacement
 from engine.painting.layering.placing_members import Placing
 
@@ -47,6 +48,18 @@ class FitFrame:
 
 
 @dataclass(frozen=True, slots=True)
+class AskPainted:
+    """Asks how far reaches what is seen of the paint."""
+
+
+@dataclass(frozen=True, slots=True)
+class PaintedTold:
+    """How far reaches what is seen of the paint, pixels of level 0; empty where there is none."""
+
+    rect: Rect
+
+
+@dataclass(frozen=True, slots=True)
 class AskBake:
     """Asks at which level a placement would become pixels."""
 
@@ -63,4 +76,4 @@ class BakeTold:
     flat: bool = False
 
 
-MoveRequest = Try | AskExtent | FitFrame | AskBake
+MoveRequest = Try | AskExtent | FitFrame | AskPainted | AskBake

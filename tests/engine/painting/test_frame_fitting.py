@@ -12,7 +12,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.moving.move_requests import FitFrame
+from engine.studio.moving.move_requests import AskPainted, FitFrame, PaintedTold
 from engine.studio.studio import Studio
 
 FIRST = Rect(0, 0, 300, 200)
@@ -41,6 +41,13 @@ def fit(studio):
     while studio.step():
         pass
     return studio.easel.session.painting
+
+
+def reached(studio, told):
+    studio.do(AskPainted())
+    while studio.step():
+        pass
+    return [one.rect for one in told if isinstance(one, PaintedTold)][-1]
 
 
 def alpha(painting, rect):
@@ -77,6 +84,7 @@ def test_where_nothing_is_painted_the_frame_stays_and_that_is_told(studio, told)
     assert fit(studio).frame == FIRST
     notes = [one.text for one in told if isinstance(one, results.Note)]
     assert notes == ["There is no paint to fit the frame to"]
+    assert reached(studio, told).empty
     studio.do(q.Do(dot(40, 50)))
     steps = len(fit(studio) and studio.easel.session.log)
     fit(studio)
