@@ -1,4 +1,5 @@
-"""The workshop in the real window: a texture is written, a mistake told where it is, and the brush paints with it."""
+"""The workshop in the real window: a texture is written, a mistake told where it is, the brush paints with it, and it
+is changed as nodes."""
 
 from contextlib import suppress
 
@@ -48,3 +49,16 @@ def test_a_texture_is_written_and_painted_with(program):
         return changed.sum() > 1000 and coloured(now[changed][None])
 
     app.until(painted)
+    changed_as_nodes(app, seen)
+
+
+def changed_as_nodes(app, seen):
+    """A number dragged in a node is another one in the text, and one step of its undo."""
+    before = app.parked()[seen]
+    app.click("as nodes")
+    x, y = app.at("texture a 5")  # of noise(x*3
+    app.drag((x, y), (x + 80, y))
+    app.do("mouseup", 1)
+    app.until(lambda screen: np.abs(screen[seen] - before).mean() > 5)
+    app.click("text back")
+    app.until(lambda screen: np.abs(screen[seen] - before).mean() < 1)

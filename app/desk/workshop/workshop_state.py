@@ -41,6 +41,7 @@ class WorkshopState:
     size: tuple[int, int] = (256, 256)
     lit: bool = False
     put: bool = False
+    nodes: bool = False  # whether the text is shown as nodes
     over: tuple[int, int] | None = None
     use: tuple[str, str] | None = None
     scene: WorkshopScene = WorkshopScene("")  # noqa: RUF009

@@ -23,19 +23,24 @@ _LISTED = 1  # in a window's storage: in which frame a list that drops down was 
 def tooltip(text: str, *, beside: bool = False) -> None:
     """Draws the hint of the item just drawn, after a short rest of the pointer.  `beside`: to the left of its window,
     so that it covers none of what is in it.  Its size is that of this text: by itself it takes one a frame later."""
-    text = say(text)
     if text and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip | imgui.HoveredFlags_.allow_when_disabled):
         if beside:
             edge = imgui.internal.get_current_window_read().root_window.pos.x - 4 * imgui.get_style().font_scale_dpi
             imgui.set_next_window_pos(ImVec2(edge, imgui.get_item_rect_min().y), imgui.Cond_.always, ImVec2(1, 0))
-        padding, wide = ImVec2(8, 5) * imgui.get_style().font_scale_dpi, imgui.get_font_size() * 22
-        imgui.set_next_window_size(imgui.calc_text_size(text, False, wide) + padding * 2 + ImVec2(1, 1))
-        imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
-        if imgui.begin_tooltip():
-            imgui.text_wrapped(text)
-            named("tooltip")
-            imgui.end_tooltip()
-        imgui.pop_style_var()
+        show_tooltip(text)
+
+
+def show_tooltip(text: str) -> None:
+    """Draws a hint at the pointer."""
+    text = say(text)
+    padding, wide = ImVec2(8, 5) * imgui.get_style().font_scale_dpi, imgui.get_font_size() * 22
+    imgui.set_next_window_size(imgui.calc_text_size(text, False, wide) + padding * 2 + ImVec2(1, 1))
+    imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
+    if imgui.begin_tooltip():
+        imgui.text_wrapped(text)
+        named("tooltip")
+        imgui.end_tooltip()
+    imgui.pop_style_var()
 
 
 def named(label: str) -> None:

@@ -42,7 +42,7 @@ class LineMarks:
         painter, at, end = imgui.get_window_draw_list(), imgui.get_item_rect_min(), imgui.get_item_rect_max()
         shown = desk.pictures.get("workshop lines")
         if shown is not None:
-            u, v = _corners(number, last + 1)
+            u, v = line_corners(number, last + 1)
             middle, half = (u.y + v.y) / 2, (v.y - u.y) / 3.2
             u, v = ImVec2(u.x, middle - half), ImVec2(v.x, middle + half)
             painter.add_image_rounded(shown, at, end, u, v, -1 & 0xFFFFFFFF, 3)
@@ -61,7 +61,7 @@ class LineMarks:
         return _told(values[number]) if number < len(values) else ""
 
 
-def _corners(number: int, count: int) -> tuple[ImVec2, ImVec2]:
+def line_corners(number: int, count: int) -> tuple[ImVec2, ImVec2]:
     """Returns where a line's picture lies among all."""
     rows = -(-count // LINES_ACROSS)
     left, top = number % LINES_ACROSS / LINES_ACROSS, number // LINES_ACROSS / rows
@@ -88,7 +88,7 @@ def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
     imgui.set_next_window_size(ImVec2(wide, high) + padding * 2)
     if imgui.begin_tooltip():
         if shown is not None:
-            imgui.image(shown, ImVec2(side, side), *_corners(number, len(desk.workshop.scene.lines)))
+            imgui.image(shown, ImVec2(side, side), *line_corners(number, len(desk.workshop.scene.lines)))
         said.text_unformatted(line.name or "the texture")
         said.text_disabled(about)
         said.text_disabled(text)

@@ -85,6 +85,7 @@ class TextField:
             self._editor.undo()
         elif steps > 0 and self._editor.can_redo():
             self._editor.redo()
+        self._text = self._editor.get_text()
 
     @property
     def travels(self) -> tuple[bool, bool]:

@@ -18,6 +18,7 @@ from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.panel import Panel
 from app.panels.workshop.line_marks import LineMarks
+from app.panels.workshop.node_view import NodeView
 from app.panels.workshop.text_field import FieldShown, TextField
 from app.panels.workshop.texture_view import TextureView
 from app.panels.workshop.workshop_settings import draw_settings
@@ -40,6 +41,7 @@ class WorkshopPanel(Panel):
 
     def __init__(self) -> None:
         self._field, self._marks, self._view = TextField(), LineMarks(), TextureView()
+        self._nodes, self._written_as = NodeView(), ""  # what the field had when nodes were drawn last
         self._following, self._first = Following(_SETTLE), True
         self.hears = {WorkshopScene: _heard, WorkshopWords: _words, WorkshopValues: _values}
 
@@ -95,10 +97,13 @@ class WorkshopPanel(Panel):
         line, gap = imgui.get_text_line_height(), imgui.get_style().item_spacing.y
         mistake = state.scene.mistake if state.scene.text == state.text else None
         self._marks.begin(desk)
-        shown = FieldShown(mistake, state.words, self._marks.draw, self._marks.note)
-        self._field.draw(ImVec2(room.x, room.y - 2 * line - 2 * gap), shown)
-        if self._field.text != state.text:
-            state.edit(self._field.text)
+        size = ImVec2(room.x, room.y - 2 * line - 2 * gap)
+        if state.nodes:
+            self._as_nodes(desk, size)
+        else:
+            self._field.draw(size, FieldShown(mistake, state.words, self._marks.draw, self._marks.note))
+            if self._field.text != state.text:
+                state.edit(self._field.text)
         if mistake is None:
             function = self._field.function(state.words)
             said.text_disabled("Click a picture to look at a line alone" if function is None else "")
@@ -116,6 +121,19 @@ class WorkshopPanel(Panel):
         w.tooltip(f"{text}\nClick to go there; the last texture that was right stays in sight")
         if imgui.is_item_clicked():
             self._field.go_to(mistake.line, mistake.column)
+
+    def _as_nodes(self, desk: Desk, size: ImVec2) -> None:
+        """Draws the text as nodes.  What is dragged there is one step of the text's undo when it is let go."""
+        state = desk.workshop
+        if self._field.text != self._written_as:  # something was taken back
+            self._written_as = self._field.text
+            state.edit(self._written_as)
+        changed = self._nodes.draw(desk, size)
+        if changed is not None:
+            state.edit(changed)
+        if state.text != self._written_as and not imgui.is_any_item_active():
+            self._field.put(state.text)
+            self._written_as = state.text
 
     def _uses(self, desk: Desk) -> None:
         """Draws what the texture can become: ink, in the first row, is what most want."""

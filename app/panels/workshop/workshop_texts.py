@@ -51,6 +51,10 @@ def draw_texts(desk: Desk, field: TextField) -> None:
     imgui.same_line(0, gap)
     if w.icon_button("text again", icons.REDO, "Write it again  (Ctrl+Y in the text)", enabled=again):
         field.travel(1)
+    imgui.same_line(0, gap)
+    hint = "The text as nodes: a line each, and links for names; what is changed in one is changed in the other"
+    if w.icon_button("as nodes", icons.NODES, hint, on=state.nodes):
+        state.nodes = not state.nodes
 
 
 def _explain(desk: Desk) -> None:

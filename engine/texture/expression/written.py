@@ -143,9 +143,14 @@ def parse_text(text: str, table: Words) -> WrittenText:
     """Returns a checked text.  WrittenError tells the first mistake."""
     if len(text) > CHARACTERS_MOST:
         raise WrittenError((1, 1), f"{len(text)} characters", f"{CHARACTERS_MOST} at most")
+    return WrittenText(text, tuple(_Text(text_tokens(text), table, text).lines()))
+
+
+def text_tokens(text: str) -> list[Token]:
+    """Returns what a text is made of, without comments and without line breaks within brackets, the end last.
+    WrittenError tells what the language does not have."""
     without = _COMMENT.sub(lambda found: found[1] or " " * len(found[0]), text)
-    reader = _Text(_joined(text, list(tokens(without, _TOKEN, _KINDS))), table, text)
-    return WrittenText(text, tuple(reader.lines()))
+    return _joined(text, list(tokens(without, _TOKEN, _KINDS)))
 
 
 def _joined(text: str, found: list[Token]) -> list[Token]:

@@ -20,7 +20,12 @@ DRAWING = {
 }
 # Where names of the artist's own are drawn, signs and numbers, or what was looked up before: by modules.
 OWN = {
-    *("workshop.completion_list", "workshop.line_marks", "workshop.text_letters"),  # what the artist writes
+    *(
+        "workshop.completion_list",
+        "workshop.line_marks",
+        "workshop.text_letters",
+        "workshop.node_menus",
+    ),  # what the artist writes
     *("brush.preset_tile", "examples.examples_panel", "controls.widgets", "dialogs.file_list", "menu_bar"),
     *("arranging.workspaces_dialog", "layers.layers_panel", "places.places_panel", "recent_menu", "recovery.cards"),
 }
