@@ -102,8 +102,8 @@ class Exemplar:
 
     @property
     def seamless(self) -> bool:
-        """Tells whether it is grown by the method SEAMLESS, which knows nothing of control channels."""
-        return self.parameters.method == SEAMLESS and self.control is None
+        """Tells whether it is grown by the method SEAMLESS."""
+        return self.parameters.method == SEAMLESS
 
     @cached_property
     def faint(self) -> int:

@@ -18,6 +18,9 @@ from engine.texture.example.region_window import OUTSIDE, Example, Rules, Window
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
 _DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one
 _PATCHES, _LIKE = 24, 40000  # patches that are drawn to be as told, and the energy that is near enough
+# As much for a pixel of another shape where pieces are drawn: of a rim that is told alike all along, else, one piece
+# would be the nearest, and come again and again.
+_LIKE_PIECES = 40 * _LIKE
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
@@ -117,7 +120,7 @@ def _draw(
                     middle = np.int32((block >> 1) << 16 | block >> 1)
                     start = _as_told(window, y, x, start, (chance, corners, place, middle), example, rules)
                 if rules.pieces:
-                    starts[y, x] = _piece(window.bits[y, x] & FULL, start, chance, place, example, rules)
+                    starts[y, x] = _piece(window, y, x, start, (chance, place), example, rules)
                 else:
                     starts[y, x] = _shaped(window, y, x, start, example, rules)
 
@@ -177,14 +180,20 @@ def _shaped(window: Window, y: Int, x: Int, start: Int, example: Example, rules:
 
 
 @inner_uncounted
-def _piece(bits: Int, start: Int, chance: Int, place: Int, example: Example, rules: Rules) -> Int:
-    """As `_shaped`, but all pixels of a patch, `place` being where this one lies in it, draw the same part of the
-    example, as far as it has their shapes there."""
+def _piece(window: Window, y: Int, x: Int, start: Int, drawing: tuple[Int, Int], example: Example, rules: Rules) -> Int:
+    """As `_shaped`, but all pixels of a patch draw the same part of the example, as far as it has their shapes there.
+
+    `drawing`: the hash of the patch, and how far its pixel lies from where it begins, as names do.
+    """
+    bits, (chance, place) = window.bits[y, x] & FULL, drawing
     if not rules.rims or ones(bits ^ example.bits[start >> 16, start & 0xFFFF]) <= _ALIKE:
         return start
     least, drawn = np.int32(50), np.uint64(0)
-    for i in range(example.order.size):
+    way = way_of(window, y, x, example)
+    for i in range(example.starts[way], example.starts[way + COUNTS]):
         apart = max(_DRAWN, ones(bits ^ shape_at(example, i)))
+        if apart <= least and rules.told.size:
+            apart += told_apart(window, y, x, example, example.order[i], rules) // _LIKE_PIECES
         if apart <= least:
             rank = mix64(chance + np.uint64(np.int64(example.order[i] - place)) * _GOLDEN)
             if apart < least or rank > drawn:

@@ -55,9 +55,15 @@ def controlled(side: int = 48, turns: int = 8, width: int = 12, **values) -> Exe
     return analysed_with(blob(side)[0], None, Parameters(**values), (channels, planes), EVERYWHERE)
 
 
+def graded(side: int = 64, **values) -> Exemplar:
+    """The same with its rim and a map from dark on the left to light on the right."""
+    planes = np.broadcast_to(np.linspace(0, 255, side).astype(np.uint8), (1, side, side))
+    return analysed_with(blob(side)[0], None, Parameters(**values), ((Channel("glow", 0.5),), planes), EVERYWHERE)
+
+
 def told_at(exemplar: Exemplar, rect: Rect) -> np.ndarray | None:
     """What two channels tell of places, some of it alike over many pixels."""
-    if exemplar.control is None:
+    if exemplar.control is None or exemplar.control.stored < 2:
         return None
     y, x = np.mgrid[rect.y0 : rect.y1, rect.x0 : rect.x1]
     return np.stack([(x >> 3) * 20 & 255, (y >> 4) * 60 & 255]).astype(np.uint8)

@@ -25,6 +25,7 @@ EXEMPLARS = {
     "two passes": bounded(passes=2, neighbourhood=5),
     "told": controlled(),
     "seamless": bounded(method=2),
+    "seamless, told": controlled(method=2),
     "seamless, faint": faint(method=2),
     "seamless, unbounded": unbounded(method=2),
 }

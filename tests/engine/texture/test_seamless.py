@@ -6,7 +6,7 @@ import zlib
 
 import numpy as np
 import pytest
-from exemplars import bounded, faint, unbounded
+from exemplars import bounded, controlled, faint, graded, told_at, unbounded
 
 from engine.numeric.address import Rect
 from engine.numeric.neighbourhood import FULL, straight_shapes
@@ -22,6 +22,8 @@ GROWN = {
     "correction": (bounded, {}, (1501588159, 1497471127)),
     "correction, two passes": (bounded, {"passes": 2, "neighbourhood": 5}, (1175250441, 1530718470)),
     "correction without a rim": (unbounded, {}, (4184315613, 2744219634)),
+    "correction with maps": (controlled, {}, (4221566806, 1981179095)),
+    "seamless with maps": (controlled, {"method": 2}, (2658262364, 3978941240)),
     "seamless": (bounded, {"method": 2}, (4096492948, 2160659992)),
     "seamless without a rim": (unbounded, {"method": 2}, (2445470605, 4022330710)),
 }
@@ -29,7 +31,7 @@ GROWN = {
 
 def grown(exemplar: Exemplar, rect: Rect, mask: np.ndarray, seed: int = 3) -> tuple[np.ndarray, np.ndarray]:
     """Sources and pixels."""
-    region = refined(painted(empty(exemplar, seed), rect, mask))
+    region = refined(painted(empty(exemplar, seed), rect, mask, values=told_at(exemplar, rect)))
     return show.sources(region, rect), show.pixels(region, rect)
 
 
@@ -47,8 +49,9 @@ def repeated(exemplar: Exemplar) -> float:
     return max(float((found[:, lag:] == found[:, :-lag]).mean()) for lag in range(6, 60))
 
 
-def test_level_bands_repeat_less():
-    before, after = repeated(bounded(120)), repeated(bounded(120, method=2))
+@pytest.mark.parametrize("make", [bounded, graded])
+def test_level_bands_repeat_less(make):
+    before, after = repeated(make(120)), repeated(make(120, method=2))
     assert after < 0.75 * before
 
 
