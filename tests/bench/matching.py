@@ -70,7 +70,7 @@ def _matched(example: np.ndarray, side: int, threads: Executor | None = None) ->
 def _against_plain(example: np.ndarray, side: int, repeats: int) -> Iterator[Figure | Skipped]:
     name = f"match {example.shape[1]} to {side}"
     try:
-        theirs = _plain(example, side)
+        theirs = plain(example, side)
     except ImportError as error:
         yield Skipped(f"{name}, plain", f"{error.name} is not installed")
         return
@@ -80,7 +80,7 @@ def _against_plain(example: np.ndarray, side: int, repeats: int) -> Iterator[Fig
     yield Figure(f"{name}, plain", taken * 1e3, "ms", bound, other / taken, TIMES_FASTER, True, "one thread each")
 
 
-def _plain(example: np.ndarray, side: int) -> Work:
+def plain(example: np.ndarray, side: int) -> Work:
     """The same method with pyrtools' pyramid and skimage's histograms, as one would write it down."""
     from skimage.exposure import match_histograms
 

@@ -5,7 +5,7 @@ On pictures that nothing was tuned on: crops of scikit-image's photographs, and 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
@@ -14,6 +14,7 @@ import numpy as np
 from bench import Figure, Skipped
 from bench.clock import processor
 from bench.joint_statistics import yardstick
+from bench.matching import plain
 from engine.makers import with_structure
 from engine.numeric.address import Rect
 from engine.numeric.colour import from_rgba8
@@ -56,18 +57,35 @@ def measure(small: bool = False) -> Iterator[Figure | Skipped]:
             taken = min(processor(work) for _ in range(repeats))
             yield Figure(f"{structure}, {kind} {side}", taken * 1e3, "ms", f"{bound} s", taken / bound, 1.0, note=note)
     if not small:
-        yield from _histograms(examples, side)
+        yield _compared("histograms alone", histograms, examples, side)
+        yield _compared("pyrtools and skimage", _plainly, examples, side)
 
 
-def _histograms(examples: dict[str, np.ndarray], side: int) -> Iterator[Figure]:
-    """The old method, on the same pictures."""
-    found = []
-    for example in examples.values():
-        pattern = matching.analysed(example, matching.Shape().within((side, side), example.shape[1:]))
-        planes = matching.matched(pattern, matching.noise(pattern.colours.count, (side, side), 1))
-        found.append(yardstick(*map(_last, (example, matching.matched_colours(pattern, planes)))))
-    mean = float(np.mean(found))
-    yield Figure("histograms alone, yardstick", mean, "", "0.20", mean / YARDSTICK, 1e9, note="for comparison")
+def histograms(example: np.ndarray, side: int) -> np.ndarray:
+    """The old method, from picture to picture."""
+    pattern = matching.analysed(example, matching.Shape().within((side, side), example.shape[1:]))
+    planes = matching.matched(pattern, matching.noise(pattern.colours.count, (side, side), 1))
+    return matching.matched_colours(pattern, planes)
+
+
+def _plainly(example: np.ndarray, side: int) -> np.ndarray:
+    """The old method as one would write it down with other libraries."""
+    return np.asarray(plain(example, side)())
+
+
+def _compared(
+    name: str, make: Callable[[np.ndarray, int], np.ndarray], examples: dict[str, np.ndarray], side: int
+) -> Figure | Skipped:
+    """Another method, on the same pictures."""
+    name, found = f"{name}, yardstick", {}
+    try:
+        for one, example in examples.items():
+            found[one] = yardstick(*map(_last, (example, make(example, side))))
+    except ImportError as error:
+        return Skipped(name, f"{error.name} is not installed")
+    mean = float(np.mean(list(found.values())))
+    told = ", ".join(f"{one} {value:.2f}" for one, value in found.items())
+    return Figure(name, mean, "", "0.20", mean / YARDSTICK, 1e9, note=f"for comparison: {told}")
 
 
 def textured(example: np.ndarray, structure: str, side: int, seed: int = 1) -> np.ndarray:
