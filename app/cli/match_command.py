@@ -6,6 +6,7 @@ import argparse
 import json
 import os
 import re
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -29,6 +30,9 @@ STRUCTURES = ("none", "statistics", "coarse", "objects", "full")
 OF_NONE = ("--pyramid", "--levels", "--orientations", "--iterations", "--exact", "--start")  # options
 MOST = 8  # threads at most
 _BYTES = 230  # for each pixel and channel of a texture with a structure
+_PIXELS = 1 << 24  # of a texture with a structure, at most
+_LONG = 90.0  # seconds from which on it is told how long it takes
+_HISTOGRAMS, _STRUCTURED = 1.6e-6, 5e-6  # seconds of the processor for a pixel and channel, about
 PICTURE = "a PNG, JPEG or TIFF; grey, RGB or RGBA, 8 or 16 bit"
 ABOUT = {
     "match": "Texture like an example, of any size, that tiles without seams",
@@ -68,6 +72,7 @@ def run(name: str, words: list[str]) -> int:
     if given.structure != "none":
         return _structured(given, examples, (height, width))
     check_memory(height * width, examples, f"{width} x {height}", 44 + 12 * thread_count())
+    _tell_how_long((width, height), examples, _HISTOGRAMS)
     pattern = _pattern(name, given, [example.planes for example in examples], (height, width))
     beginning = _beginning(pattern, start, given.seed, (height, width))
     from engine.texture.matching import matched_colours, matching
@@ -98,7 +103,10 @@ def _structured(given: argparse.Namespace, examples: list[ExampleArgument], size
     from engine.texture.structure.copied import copied_share
 
     height, width = size
+    if height * width > _PIXELS:
+        raise Refused(f"--size: found {width} x {height}, expected at most {_largest(size)} with a structure")
     check_memory(height * width, [], f"{width} x {height}", _BYTES * max(len(example.planes) for example in examples))
+    _tell_how_long((width, height), examples, _STRUCTURED)
     planes, colours = [example.planes for example in examples], None
     with Progress("matching", 100) as bar:
         for done, found in with_structure.texture_steps(
@@ -113,6 +121,21 @@ def _structured(given: argparse.Namespace, examples: list[ExampleArgument], size
     facts = {"structure": given.structure, "copied": round(copied, 3), "size": [width, height]}
     tell(given, _of_pixels(given, pixels) | facts)
     return DONE
+
+
+def _largest(size: tuple[int, int]) -> str:
+    """Names the largest size of the shape of one."""
+    part = (_PIXELS / (size[0] * size[1])) ** 0.5
+    return f"{int(size[1] * part)} x {int(size[0] * part)}"
+
+
+def _tell_how_long(size: tuple[int, int], examples: list[ExampleArgument], each: float) -> None:
+    """Says on standard error how long it takes where that is long: the bar is for terminals alone."""
+    taken = size[0] * size[1] * max(len(example.planes) for example in examples) * each
+    if taken >= _LONG:
+        print(
+            f"inkfall: {size[0]} x {size[1]} pixels take some {taken / 60.0:.0f} minutes", file=sys.stderr, flush=True
+        )
 
 
 def _parser(name: str) -> Parser:

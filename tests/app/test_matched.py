@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from app.__main__ import main
-from app.cli import solid_command
+from app.cli import match_command, solid_command
 from engine.makers import heeger_bergen
 from engine.texture import solid as engines
 
@@ -85,6 +85,21 @@ def test_a_mixture_with_a_structure_lies_between_both(tmp_path):
     alphas = [end[..., 3].mean() for end in ends]
     assert alphas[0] == 255
     assert alphas[0] > alphas[1] > alphas[2]
+
+
+def test_sizes_beyond_patience_are_refused_with_the_largest_one(tmp_path, capsys):
+    path = picture(tmp_path)
+    words = ("match", path, "--structure", "objects", "--out", tmp_path / "o.png", "--size")
+    for asked, most in (("6000x4000", "5016 x 3344"), ("1048576x17", "1017268 x 16")):
+        assert main(["texture", *map(str, words), asked]) == 2
+        found = f"found {asked.replace('x', ' x ')}, expected at most {most} with a structure"
+        assert capsys.readouterr().err == f"inkfall: --size: {found}\n"
+
+
+def test_long_work_is_told_beforehand(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(match_command, "_LONG", 0.0)
+    made(tmp_path, "match", picture(tmp_path), "--size", "37x29")
+    assert capsys.readouterr().err == "inkfall: 37 x 29 pixels take some 0 minutes\n"
 
 
 @pytest.mark.parametrize(
