@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import suppress
-from typing import Any
+from typing import cast
 
 from llvmlite.binding import ffi
 from numba.core import event, ir, postproc
 from numba.core.compiler import Flags
 from numba.core.targetconfig import ConfigStack
-from numba.core.types import BaseFunction
+from numba.core.types import BaseFunction, Type
 from numba.core.typing import templates
 from numba.np import arrayobj
 
@@ -91,24 +91,26 @@ def _own_functions_again() -> None:
 def _resolved_again() -> None:
     """Finds what a built-in function gives for some types once: for each `+` of each kernel numba would try all that
     it knows of `+`."""
-    function: Any = BaseFunction
-    looked_up = function.get_call_type
-    known: dict[tuple[object, ...], tuple[object, Any, object]] = {}
+    looked_up = BaseFunction.get_call_type
+    known: dict[tuple[object, ...], tuple[BaseFunction, templates.Signature, object]] = {}
 
-    def found(self: Any, context: object, args: tuple[Any, ...], kws: dict[str, object]) -> object:
+    def found(
+        self: BaseFunction, context: object, args: tuple[Type, ...], kws: dict[str, Type]
+    ) -> templates.Signature | None:
         if kws:
             return looked_up(self, context, args, kws)
         flags = ConfigStack.top_or_none()
         told = "" if flags is None else repr([i for i in flags._values.items() if i[0] not in _OF_THE_CALLER])
-        key = id(self), id(context), told, *(kind._code for kind in args)
+        key = id(self), id(context), told, *args
         if key not in known:
             signature = looked_up(self, context, args, kws)
-            known[key] = self, signature, self._impl_keys[signature.args]  # the function is kept, and so its id
+            known[key] = self, signature, self.get_impl_key(signature)  # the function is kept, and so its id
             return signature
-        _, signature, self._impl_keys[signature.args] = known[key]
+        _, signature, implementation = known[key]
+        vars(self)["_impl_keys"][signature.args] = implementation
         return signature
 
-    function.get_call_type = found
+    BaseFunction.get_call_type = found  # type: ignore[method-assign, assignment]
 
 
 def _variables_of_blocks() -> None:
@@ -140,16 +142,16 @@ def _parts_one_by_one() -> None:
         sort = next((sort for base, sort in bases if issubclass(kind, base)), nothing)
         return sorts.setdefault(kind, sort)
 
-    def gather(parts: Iterable[Any], out: list[ir.Var]) -> None:
+    def gather(parts: Iterable[object], out: list[ir.Var]) -> None:
         for part in parts:
             kind = type(part)
             sort = sorts[kind] if kind in sorts else sort_of(kind)
             if sort == variable:
                 out.append(part)
             elif sort == instruction:
-                out += part.list_vars()
+                out += cast(ir.Inst, part).list_vars()
             elif sort:
-                gather(part if sort == several else part.values(), out)
+                gather(cast(list[object], part) if sort == several else cast(dict[str, object], part).values(), out)
 
     def listed(self: ir.Inst, told: object) -> list[ir.Var]:
         out: list[ir.Var] = []
