@@ -21,7 +21,7 @@ from bench.display import available, children, display, python
 
 DAB, ALL = 4.0, 40.0  # seconds that they may take on two cores
 PATIENCE = 400.0  # seconds
-POINTS = ((500, 400), (530, 410), (560, 430), (600, 440))  # of the stroke, pixels of the screen
+POINTS = ((500, 590), (530, 600), (560, 620), (600, 630))  # of the stroke, pixels of the screen: below the start page
 BUSY = "while True: pass"
 PROGRAM = """
 import json, os, sys, time
