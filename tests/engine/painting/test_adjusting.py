@@ -15,6 +15,7 @@ from engine.painting.recording import Header, version_of
 from engine.painting.value import Refusal, first_painting
 from engine.session.replay import replay
 from engine.session.session import Session
+from engine.strokes import all_painted
 from engine.strokes.all_painted import level_for_all
 from engine.studio.adjusting.trial_records import Tried, TryFill
 from engine.studio.studio import Studio
@@ -101,10 +102,11 @@ def test_the_level_is_the_finest_that_is_stored_where_that_is_not_too_much():
     [
         (adjusted({"name": "invert"}, layer="bare"), "no paint"),
         (adjusted({"name": "invert"}, onto="mask"), "whole of a mask"),
-        (adjusted({"name": "invert"}, 14), "more than 16384 tiles"),
+        (adjusted({"name": "invert"}, 14), "more than 256 tiles of level"),
     ],
 )
-def test_what_cannot_be_is_refused_in_a_line(command, wrong):
+def test_what_cannot_be_is_refused_in_a_line(command, wrong, monkeypatch):
+    monkeypatch.setattr(all_painted, "MOST_FILLED", 256)  # 16384 take eight seconds
     session = done()
     session.do(c.parse({"do": "layer", "add": "bare"}))
     session.do(c.parse({"do": "layer", "select": "sky"}))
