@@ -14,7 +14,7 @@ from engine.archive.shelf import Filed
 from engine.canvas.rising.paged_level import Page, TilePlace, bit_of
 from engine.canvas.store import Record
 from engine.keeping.recent import Recent
-from engine.keeping.spill import Spilled, spill
+from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import Rect
 from engine.session.coding.coded_records import CodedData, CodedSheets, coded_alone
 from engine.texture.even_planes import EvenPlanes
@@ -23,6 +23,7 @@ from engine.texture.record import Instance
 _READ = 24 << 20  # bytes of pages kept that were asked for
 _FACTS = 10  # int64 that are told of a record, before what it is made of
 _WORTH_PART = 8  # of the records of a page that were changed since: fewer are not worth that the page is written anew
+_PAGE_OVERHEAD = 400 + PLACE_OVERHEAD  # bytes of memory that a page on disk takes, roughly: it may be of one tile
 _INTEGERS = np.dtype(np.int16), np.dtype(np.int32)
 
 
@@ -72,14 +73,15 @@ def put_page_away(page: Page[Record], newest: int) -> int:
     gone = [place for place, record in changed.items() if record is None]
     old = {at: record for at, record in changed.items() if record is not None and _is_old(record, newest)}
     before = 0 if away is None else away.bits.bit_count()
-    if not old or len(old) * _WORTH_PART < before:
+    freed = sum(record.nbytes for record in old.values()) - (_PAGE_OVERHEAD if away is None else 0)
+    if freed <= 0 or len(old) * _WORTH_PART < before:
         return 0
     kept = {} if away is None else {at: record for at, record in away.records().items() if at not in changed}
     left = changed.mutate()
     for place in (*gone, *old):
         del left[place]
     page.put_away(_away(kept | old), left.finish())
-    return sum(record.nbytes for record in old.values())
+    return freed
 
 
 def _is_old(record: Record, newest: int) -> bool:

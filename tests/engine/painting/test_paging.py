@@ -24,6 +24,7 @@ from engine.session import paging
 from engine.session import room as rooms
 from engine.session.coding import coded_records, paged_records
 from engine.session.coding.coded_records import CodedData
+from engine.session.coding.paged_records import put_page_away
 from engine.session.paging import Paging
 from engine.session.room import Room
 from engine.session.session import Session
@@ -116,6 +117,10 @@ def test_a_process_that_takes_too_much_pages_what_is_painted(monkeypatch):
     assert contents(session.painting) == before
 
 
+def smallest(pages):
+    return min(pages, key=lambda page: sum(record.nbytes for _, record in page.items()))
+
+
 def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch, tmp_path):
     monkeypatch.setattr(paged_level, "MANY", 8)
     monkeypatch.setattr(paging, "_OF_LATE", 1)
@@ -125,6 +130,8 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch,
         session.do(stroke(n, radius=2.0, ink=ROCK if n == 1 else ()))
     (layer,) = layers.layers(session.painting.root)
     level = layer.pyramid.levels[0]
+    assert put_page_away(smallest(level.pages.values()), 24) == 0  # its place on disk would take as much
+    monkeypatch.setattr(paged_records, "_PAGE_OVERHEAD", 0)
     before, states = contents(session.painting), session.history.steps.done
     save(tmp_path / "here.ora", Snapshot(session.painting))
     pages = Paging()
