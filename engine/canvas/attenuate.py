@@ -7,8 +7,10 @@ record's level by expand, and applied in the order of the commits when the recor
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from dataclasses import replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -24,13 +26,59 @@ _NEAR, _APART = 3, 16  # levels below a stroke, and below one another, at which 
 _HIGH = 4  # no fewer levels than that above a tile: some pixels, which tiles of many levels have in common
 _MOST_NOTED = 1 << 14
 _NOTED: dict[tuple[int, int, Rect], np.ndarray] = {}  # by a stroke's serial, a level and a place there
+_MOST_RENEWED = 24 << 20  # bytes
+
+
+class _Renewed:
+    """What records have become by the newest attenuation of their pyramid: of one view, most are asked for by several
+    rectangles that meet them.  Safe for several threads: what is lost is worked out again."""
+
+    def __init__(self) -> None:
+        self._held: WeakKeyDictionary[Record, tuple[TileKey, int, Record | None]] = WeakKeyDictionary()
+        self._bytes = 0
+        self._lock = threading.Lock()
+
+    def of(self, record: Record, key: TileKey, serial: int) -> tuple[bool, Record | None]:
+        """Returns whether it is known what a record of a tile has become by the attenuation of a commit, and that; None
+        where it is as it was."""
+        found = self._held.get(record)
+        return (True, found[2]) if found is not None and found[:2] == (key, serial) else (False, None)
+
+    def note(self, record: Record, key: TileKey, serial: int, now: Record | None) -> None:
+        """Keeps what a record has become."""
+        more = 0 if now is None else now.nbytes
+        if more > _MOST_RENEWED // 16:
+            return
+        with self._lock:
+            if self._bytes + more > _MOST_RENEWED or len(self._held) >= _MOST_NOTED:
+                self._forget()
+            self._bytes += more
+            self._held[record] = key, serial, now
+
+    def clear(self) -> None:
+        """Forgets all."""
+        with self._lock:
+            self._forget()
+
+    def _forget(self) -> None:
+        self._held, self._bytes = WeakKeyDictionary(), 0
+
+
+RENEWED = _Renewed()
 
 
 def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
     """Returns the record as it is now: every attenuation since it was stored applied, oldest first."""
-    pending = [waits for waits in pyramid.waiting(record.depth) if waits.change.level < key.level]
-    data = _weakened(pyramid.step, pending, key, record) if pending else None
-    return record if data is None else Record(record.rect, data, record.inks, pyramid.depth)
+    newest = pyramid.waits
+    if newest is None or newest.change.depth <= record.depth:
+        return record
+    known, now = RENEWED.of(record, key, newest.change.serial)
+    if not known:
+        pending = [waits for waits in pyramid.waiting(record.depth) if waits.change.level < key.level]
+        data = _weakened(pyramid.step, pending, key, record) if pending else None
+        now = None if data is None else Record(record.rect, data, record.inks, pyramid.depth)
+        RENEWED.note(record, key, newest.change.serial, now)
+    return record if now is None else now
 
 
 def _weakened(step: np.float32, pending: Sequence[Attenuation], key: TileKey, record: Record) -> np.ndarray | None:

@@ -13,6 +13,7 @@ from typing import Any
 
 from bench import Figure
 from bench.clock import processor
+from engine.canvas.attenuate import RENEWED
 from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Group, Layer, layers
 from engine.canvas.placing.composite_steps import Planned
@@ -88,6 +89,8 @@ def _look(root: Group, level: int, view: Rect, kept: bool = False) -> Work:
 
     def look() -> None:
         cache = held if kept else TileCache(CACHE)
+        if not kept:
+            RENEWED.clear()
 
         def read(layer: Layer, level: int, rect: Rect) -> Any:
             return layer_planes(layer, level, rect, cache)

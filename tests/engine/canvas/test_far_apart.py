@@ -19,6 +19,21 @@ from engine.numeric.pyramid import expand
 INKS = (Grain(0, 1),)
 
 
+@settings(max_examples=8, deadline=None)
+@given(st.integers(0, 10**6))
+def test_what_records_have_become_is_kept_for_the_state_that_asked(seed):
+    rng = np.random.default_rng(seed)
+    states = [Pyramid()]
+    for level in (4, 3, 2, 0):
+        _, x, y, keep, add = random_stroke(rng, 1, 12, INKS)
+        states.append(commit(states[-1], ArrayEdit(level, x, y, keep, add, INKS)))
+    for pyramid in (states[2], states[4], states[3], states[4], fold(states[4], 3), states[4], states[2]):
+        found = evaluate(pyramid, 4, Rect(-40, -40, 90, 90))
+        folding.RENEWED.clear()
+        again = evaluate(pyramid, 4, Rect(-40, -40, 90, 90))
+        assert np.array_equal(found.data, again.data)
+
+
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 10**6))
 def test_no_value_changes_above_the_coarsest_level_that_a_commit_tells(seed):
