@@ -17,6 +17,7 @@ from engine.canvas.descent import from_afar
 from engine.canvas.store import Pyramid, Record
 from engine.canvas.tile_cache import Square, TileCache, parted, without_empty_inks
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.column import Column
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
@@ -62,30 +63,37 @@ def shown(pyramid: Pyramid, level: int, rect: Rect) -> np.ndarray | None:
 
 
 def evaluate_sparse(
-    pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None, lent: bool = False
+    pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None, lent: bool = False, tiled: bool = True
 ) -> Planes | None:
-    """As `evaluate`, but None where nothing lies.  `lent`: the cache holds the same array, nobody writes to it."""
-    return _evaluated(pyramid, level, rect, cache, lent, _SQUARES)
-
-
-def _evaluated(
-    pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None, lent: bool, squares: int
-) -> Planes | None:
-    """As `evaluate_sparse`; `squares`: so many may be kept above one another."""
+    """As `evaluate`, but None where nothing lies.  `lent`: the cache holds the same array, nobody writes to it.
+    `tiled`: the cache keeps the tiles that lie within."""
     known, value = _known(pyramid, level, rect, cache)
     if known:
         return value
-    if pyramid.coarsest is None or level < pyramid.coarsest:
-        return None
+    around, value = _evaluated(pyramid, level, rect, cache, _SQUARES)
+    if cache is not None and tiled:
+        _keep_tiles(pyramid, level, around, value, cache, lent)
+    return None if value is None else value.cut(*rect.slices(around))
+
+
+def _evaluated(
+    pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None, squares: int
+) -> tuple[Rect, Planes | None]:
+    """As `evaluate_sparse`, of what is not known; of the smallest even rectangle around it, which is returned with it.
+    `squares`: so many may be kept above one another."""
     rects = [rect.evened()]
     above, value = rects[0].parents(), None
+    if pyramid.coarsest is None or level < pyramid.coarsest:
+        return rects[0], None
+    if cache is not None and squares and _nothing_below(pyramid, level, Column(rects[0]), cache, squares):
+        return rects[0], None
     for k in range(level - 1, pyramid.coarsest - 1, -1):
         parents = rects[-1].parents().evened()
         above = parents
         known, value = _known(pyramid, k, parents, cache)
         if known:
             break
-        around = Square.of(k, parents) if cache is not None and squares and level - k >= _CLIMB else None
+        around = Square.of(k, parents) if cache is not None and squares and _climbed(level, k, squares) else None
         if cache is not None and around is not None:
             above, value = around.rect, _square(pyramid, around, cache, squares - 1)
             break
@@ -97,16 +105,36 @@ def _evaluated(
     for k, inner in zip(range(level - len(rects) + 1, level + 1), reversed(rects), strict=True):
         value = step(pyramid, value, above, k, inner)
         above = inner
-    if cache is not None:
-        _keep_tiles(pyramid, level, above, value, cache, lent)
-    return None if value is None else value.cut(*rect.slices(above))
+    return above, value
+
+
+def _climbed(level: int, k: int, squares: int) -> bool:
+    """Tells whether squares of level `k` are kept above a rectangle of a level.  Those above squares are kept at some
+    levels only: one row of them serves all levels that are looked at."""
+    return level - k >= _CLIMB if squares == _SQUARES else level - k >= _CLIMB - 1 and k % _CLIMB == 0
+
+
+def _nothing_below(pyramid: Pyramid, level: int, column: Column, cache: TileCache, squares: int) -> bool:
+    """Tells whether a rectangle lies so far below all that is stored, and has nothing above it there, that nothing is
+    in it; False where it is not known."""
+    finest = pyramid.finest
+    if finest is None or level - finest < _CLIMB:
+        return False
+    above = column.at(level - finest)
+    around = Square.of(finest, above)
+    if around is None:
+        return False
+    value = _square(pyramid, around, cache, squares - 1)
+    return value is None or not value.data[:, *above.slices(around.rect)].any()
 
 
 def _square(pyramid: Pyramid, around: Square, cache: TileCache, squares: int) -> Planes | None:
     """Returns the values of all of it, from the cache or for the cache."""
     known, value = cache.get(pyramid, around)
     if not known:
-        value = _evaluated(pyramid, around.level, around.rect, cache, False, squares)
+        known, value = _known(pyramid, around.level, around.rect, cache)
+        if not known:
+            _, value = _evaluated(pyramid, around.level, around.rect, cache, squares)
         cache.adopt(pyramid, around, value)
     return value
 

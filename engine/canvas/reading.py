@@ -11,11 +11,14 @@ import numpy as np
 from engine.canvas.evaluate import evaluate, evaluate_sparse, shown
 from engine.canvas.growth import Growth, meets, over
 from engine.canvas.layers import Layer
+from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.column import Clip
 from engine.texture.planes import COLOURS, Planes
 
 _FULL = 1.34  # times as large a rectangle may be as what is worked out of it
+_SCREEN_TILE = 2 * TILE  # pixels along a side of what a tile of the screen shows, at most, that lies elsewhere
 _WORTH = 48 * 48  # pixels of a rectangle from which on whole tiles are worked out for it
 
 
@@ -45,13 +48,34 @@ def kept_planes(layer: Layer, level: int, rect: Rect, cache: TileCache) -> np.nd
     pyramid = layer.pyramid
     if rect.area < _WORTH or pyramid.bare is not None:
         return layer_planes(layer, level, rect, cache)
+    beside = max(rect.width, rect.height) <= _SCREEN_TILE
+    known, whole = cache.view(pyramid, Clip(level, rect)) if beside else (False, None)
+    if known:
+        return covered(None if whole is None else whole.rgba, layer.growth, level, rect)
     found = {key: cache.view(pyramid, key) for key in rect.tiles(level)}
+    if beside and not any(known for known, _ in found.values()):
+        inner = [Clip(level, key.rect) for key in found if rect.intersect(key.rect) == key.rect]
+        if rect.area > len(inner) * TILE * TILE and not any(cache.view(pyramid, mark)[0] for mark in inner):
+            return covered(_by_itself(pyramid, Clip(level, rect), inner, cache), layer.growth, level, rect)
     for block in _blocks([key for key, (known, _) in found.items() if not known]):
         whole = evaluate_sparse(pyramid, level, block, cache, lent=True)
         for key in block.tiles(level):
             if key in found:
                 found[key] = True, None if whole is None else whole.cut(*key.rect.slices(block))
     return covered(_gathered(found, level, rect), layer.growth, level, rect)
+
+
+def _by_itself(pyramid: Pyramid, at: Clip, inner: list[Clip], cache: TileCache) -> np.ndarray | None:
+    """Returns colour and alpha of a rectangle that cuts through tiles: it is worked out and kept as it is, as all that
+    is seen beside it cuts through tiles at the same places.  Of the tiles that lie within it is kept that they were
+    seen: what meets them at other places is worked out by tiles."""
+    whole = evaluate_sparse(pyramid, at.level, at.rect, cache, tiled=False)
+    if whole is not None and not whole.data.flags.c_contiguous:
+        whole = Planes(np.ascontiguousarray(whole.data), whole.inks)
+    cache.adopt(pyramid, at, whole)
+    for mark in inner:
+        cache.adopt(pyramid, mark, None)
+    return None if whole is None else whole.rgba
 
 
 def _gathered(tiles: Mapping[TileKey, tuple[bool, Planes | None]], level: int, rect: Rect) -> np.ndarray | None:

@@ -26,7 +26,7 @@ _RAISED = 16 << 20  # bytes of what commits made of coarser levels, at most
 _FRONT = 64 << 20  # bytes of the levels around the newest one, at most
 _MOST = 60  # inks that are told apart in one number
 _ZERO = np.float32(0.0)
-_SQUARE, _MARGIN = 64, 8  # pixels of the side of what is kept of coarse levels, and around it
+_SQUARE, _MARGIN = 64, 20  # pixels of the side of what is kept of coarse levels, and around it
 
 
 class Square(NamedTuple):

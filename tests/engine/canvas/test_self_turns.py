@@ -172,6 +172,30 @@ def test_what_is_read_in_kept_tiles_is_the_same():
     assert kept_planes(b, 0, Rect(5000, 5000, 5300, 5300), cached) is None
 
 
+def test_what_cuts_through_tiles_is_kept_as_it_is_and_follows_strokes():
+    (a, b), cached, session = painted(), TileCache(1 << 24), Session()
+    session.painting = replace(session.painting, root=replace(EMPTY, children=(a, b)))
+    places = [Rect(-101, 3, 155, 230), Rect(-100, 0, 156, 230), Rect(-101, 3, 155, 230), Rect(155, 3, 200, 150)]
+    for points in (None, [[0, 0], [90, 90]], [[300, 5], [140, 80]]):
+        if points is not None:
+            session.do(c.parse({"do": "stroke", "layer": "a", "level": -1, "points": points, "brush": {"radius": 9}}))
+        layer = next(layers(session.painting.root))
+        for rect in places:
+            found, plain = kept_planes(layer, 1, rect, cached), layer_planes(layer, 1, rect)
+            np.testing.assert_array_equal(0 if found is None else found, 0 if plain is None else plain)
+
+
+def test_far_below_all_paint_nothing_is_told_by_what_is_stored():
+    _, b = painted()
+    cached = TileCache(1 << 24)
+    for level in (5, 9, 40):
+        for x in (-200, 5 << level, (37 << level) + 9, 127 << level):
+            for y in (5 << level, (46 << level) + 3, 110 << level):
+                rect = Rect.at(x, y, 90, 40)
+                found, plain = layer_planes(b, level, rect, cached), layer_planes(b, level, rect)
+                np.testing.assert_array_equal(0 if found is None else found, 0 if plain is None else plain)
+
+
 def copied(poses, opacity=0.7):
     """Several copies of all, and a layer over them."""
     a, _ = painted()
