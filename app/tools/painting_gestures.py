@@ -27,7 +27,6 @@ from app.trace import trace, trace_points
 from engine.brush.settings import Brush
 from engine.brush.smoothing import Smoother
 from engine.brush.steadying import ON_ROPE
-from engine.numeric.similarity import IDENTITY
 from engine.painting.points import REACH
 from engine.studio.requests import Abandon, Begin, Finish, Points
 from engine.studio.textures.texture_requests import LabBegin, LabEnd, LabPoints, RegionBegin, RegionEnd, RegionPoints
@@ -99,8 +98,7 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
     layer = desk.known.active
     aim = _aim(desk)
     if isinstance(aim, str):
-        offers = "source", "select_none" if desk.selecting.selected else "independent"
-        desk.say(aim, bad=True, offers=offers, of=layer)
+        desk.say(aim, bad=True, offers=("source", "independent"), of=layer)
         return None
     if desk.known.hiding:
         desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
@@ -115,10 +113,11 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
     symmetry.restore(desk)
     copies = symmetry.copies_at(desk, level, origin)
     aimed = None if aim is None else aim.begun(level, origin)
-    if aimed is None:
+    if aim is None or aimed is None:
         desk.post(Begin(level, origin, brush, copies=copies, onto=desk.masks.onto(layer)))
     else:
-        desk.post(Begin(aimed.level, aimed.origin, brush, aimed.layer, copies=aimed.copies(copies)))
+        seen = aim.seen if desk.selecting.selected else None
+        desk.post(Begin(aimed.level, aimed.origin, brush, aimed.layer, copies=aimed.copies(copies), seen=seen))
     return Begun(level, origin, brush, aimed)
 
 
@@ -128,10 +127,7 @@ def _aim(desk: Desk) -> Through | str | None:
     layer = desk.known.active
     if layer is None or layer.shows is None or desk.masks.on(layer):
         return None
-    aim = through(desk.known, layer, desk.view.shown_level)
-    if isinstance(aim, Through) and desk.selecting.selected and aim.similarity != IDENTITY:
-        return f"Within a selection paint on “{aim.layer}”, which “{layer.name}” shows"
-    return aim
+    return through(desk.known, layer, desk.view.shown_level)
 
 
 def paint(desk: Desk, first: PenEvent) -> Gesture:

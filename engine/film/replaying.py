@@ -121,9 +121,8 @@ class Replaying:
         return True
 
     def _begun(self, stroke: c.Stroke) -> Live:
-        live = self._session.begin(
-            stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed, stroke.copies, stroke.onto
-        )
+        about = stroke.layer, stroke.seed, stroke.copies, stroke.onto, stroke.seen
+        live = self._session.begin(stroke.level, stroke.origin, stroke.brush, *about)
         live.extra = stroke.extra
         return live
 

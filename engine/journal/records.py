@@ -16,10 +16,12 @@ import numpy as np
 from engine.brush import settings
 from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
+from engine.canvas.placing.pose import Pose
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields, dumps, loads
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT, Command, Stroke, parse, to_json
 from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
+from engine.painting.layering.seen_member import read_seen, write_seen
 from engine.painting.points import ALWAYS, POINT_COLUMNS
 from engine.painting.select_commands import JOIN_OPS
 from engine.painting.stroke_copies import read_copies, write_copies
@@ -56,7 +58,7 @@ class Kind(IntEnum):
 class Touch:
     """How a stroke begins: where, with what brush, and when, where the window tells (seconds since 1970); `layer`: None
     for the active one; `onto`: its paint or its mask; `selects`: what it does to what is selected in place of either,
-    an op of `select`, "" for nothing."""
+    an op of `select`, "" for nothing; `seen`: as of a stroke."""
 
     level: int
     origin: tuple[int, int]
@@ -66,6 +68,7 @@ class Touch:
     layer: str | None = None
     onto: str = ONTO_PAINT
     selects: str = ""
+    seen: Pose | None = None
 
 
 def told_object(value: Mapping[str, object]) -> bytes:
@@ -135,6 +138,8 @@ def told_touch(touch: Touch, brush: str) -> bytes:
         about["layer"] = touch.layer
     if touch.onto:
         about["onto"] = touch.onto
+    if touch.seen is not None:
+        about["seen"] = write_seen(touch.seen)
     if touch.selects:
         about["selects"] = touch.selects
     text = told_object(about)
@@ -157,4 +162,4 @@ def read_touch(payload: bytes, brushes: dict[bytes, Brush]) -> Touch:
     if selects not in ("", *JOIN_OPS):
         raise members.fault("selects", ", ".join(f'"{known}"' for known in JOIN_OPS))
     about = brushes[text], members.take("time", None), read_copies(members), layer, read_onto(members), selects
-    return Touch(level, (origin[0], origin[1]), *about)
+    return Touch(level, (origin[0], origin[1]), *about, read_seen(members))

@@ -148,7 +148,9 @@ class _Reader:
         touch, extra = asked.touch, frozen(members.take("extra", {}))
         points.flags.writeable = False
         self.story.commands.append(
-            Stroke(touch.level, touch.origin, points, touch.brush, layer, seed, extra, touch.copies, touch.onto)
+            Stroke(
+                touch.level, touch.origin, points, touch.brush, layer, seed, extra, touch.copies, touch.onto, touch.seen
+            )
         )
         asked.taken += count
         if last:

@@ -17,6 +17,7 @@ from engine.brush import settings
 from engine.brush.checks import thawed
 from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
+from engine.canvas.placing.pose import Pose
 from engine.files.strict_json import Fields
 from engine.painting import fill_command, layer_commands, places, select_commands
 from engine.painting.fill_command import Fill as Fill
@@ -55,6 +56,7 @@ from engine.painting.layering.paste_commands import CutPaint as CutPaint
 from engine.painting.layering.paste_commands import PastePaint as PastePaint
 from engine.painting.layering.placing_members import Placing as Placing
 from engine.painting.layering.placing_members import Same as Same
+from engine.painting.layering.seen_member import read_seen, write_seen
 from engine.painting.layering.touch_command import CleanSolid as CleanSolid
 from engine.painting.layering.touch_command import Touch as Touch
 from engine.painting.layering.touch_command import read_touch, write_touch
@@ -78,6 +80,7 @@ class Stroke:
 
     `layer`: its name, None for the active one.  `seed`: of the ink's textures; None for the painting's.
     `copies`: where it is drawn again, in the same step.  `onto`: the layer's paint, or its mask.
+    `seen`: where the layer is seen by the selection that limits it, if not where it lies.
     """
 
     level: int
@@ -89,6 +92,7 @@ class Stroke:
     extra: Map[str, Any] = _NOTHING
     copies: Copies = NO_COPIES
     onto: str = ONTO_PAINT
+    seen: Pose | None = None
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Stroke):
@@ -186,7 +190,8 @@ def _read_stroke(members: Fields) -> Stroke:
     layer = None if members.take("layer", None) is None else members.text("layer")
     seed = None if members.take("seed", None) is None else members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT)
     copies, onto = read_copies(members), read_onto(members)
-    return Stroke(level, origin, points, brush, layer, seed, members.rest(), copies, onto)
+    seen = read_seen(members)
+    return Stroke(level, origin, points, brush, layer, seed, members.rest(), copies, onto, seen)
 
 
 def _read_brush(members: Fields) -> Brush:
@@ -203,6 +208,8 @@ def _write_stroke(stroke: Stroke) -> dict[str, Any]:
         out["copies"] = write_copies(stroke.copies)
     if stroke.onto:
         out["onto"] = stroke.onto
+    if stroke.seen is not None:
+        out["seen"] = write_seen(stroke.seen)
     return {
         **out,
         "brush": settings.to_json(stroke.brush),

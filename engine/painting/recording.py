@@ -152,6 +152,7 @@ def version_of(command: Command) -> int:
     if isinstance(command, LayerCommand):
         return layer_version(command)
     newer = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto) or _lasts(command.brush))
+    newer |= isinstance(command, Stroke) and command.seen is not None
     newer |= isinstance(command, Stroke) and (command.brush.height is not None or command.brush.impasto != 0.0)
     newer |= isinstance(command, Stroke) and (bool(command.brush.control) or command.brush.row.places)
     newer |= isinstance(command, Stroke) and (feels(command.brush) or command.points.shape[1] > ALWAYS)

@@ -69,6 +69,7 @@ def _stroke(painting: Painting, command: c.Stroke, around: Around) -> Painting:
         command.seed,
         command.copies,
         command.onto,
+        command.seen,
     )
     live.lay(command.points)
     return live.commit()

@@ -16,6 +16,7 @@ from immutables import Map
 from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.canvas import layers
+from engine.canvas.placing.pose import Pose
 from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import memory
@@ -113,9 +114,10 @@ class Session(Owned):
         seed: int | None = None,
         copies: Copies = NO_COPIES,
         onto: str = ONTO_PAINT,
+        seen: Pose | None = None,
     ) -> Live:
         """Returns a stroke whose points are still to come; hand it to `finish`."""
-        return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed, copies, onto)
+        return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed, copies, onto, seen)
 
     def finish(self, live: Live) -> Painting:
         """Returns the stroke done: the same as its command, without doing the work twice.  One without a point is

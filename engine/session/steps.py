@@ -13,11 +13,12 @@ from immutables import Map
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
 from engine.canvas.node_checks import LayerError
+from engine.canvas.store import Pyramid
 from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.session.apply import STEPS, apply
-from engine.session.here.chosen import Definitions, choosing
+from engine.session.here.chosen import ByCommand, Definitions, choosing
 from engine.session.here.lineage import (
     Change,
     CopiedPast,
@@ -183,7 +184,10 @@ class Steps(Owned):
         if stroke.onto:  # no paint: it is nothing that shows
             return replace(now, painting=mask_painted(painting, layer, step), step=step, active=painting.active)
         step = replace(step, locked=layer.alpha_locked)
-        laid = Laid(step, now.pasts.get(layer.id), now.painting.selection, layer.wrap, now.painting.frame)
+        chosen = now.painting.selection
+        if isinstance(stroke, c.Stroke) and stroke.seen is not None and chosen is not None:
+            chosen = ByCommand(Pyramid(), old=chosen, by=stroke.seen.similarity.inverse())
+        laid = Laid(step, now.pasts.get(layer.id), chosen, layer.wrap, now.painting.frame)
         return replace(now, painting=painting, step=step, pasts=now.pasts.set(layer.id, laid), active=painting.active)
 
     def _travel(self, count: int, back: list[_State], forth: list[_State], redone: bool) -> None:

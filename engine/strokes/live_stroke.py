@@ -13,6 +13,7 @@ from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.dabs import stroke_key
 from engine.brush.settings import Brush
 from engine.canvas.layers import Group
+from engine.canvas.placing.pose import Pose
 from engine.canvas.selecting.limit import Limit
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
@@ -39,7 +40,7 @@ class Drawn:
     `own`: the seed of its random numbers, the painting's where its command (`seed`) has none; `chance`: what its
     dabs' random numbers hang on; `limit`: what the painting's selection leaves of it, None where that is all.
     `copies`: where it is drawn again, `origin`: from where, on the cell of a layer that is repeated; `areas`: what the
-    last points laid may have changed, for it and each copy.
+    last points laid may have changed, for it and each copy; `seen`: where the layer is, by which it is limited.
     BrushError if the brush lacks something or cannot be used, Refusal if the layer is locked.
     """
 
@@ -54,6 +55,7 @@ class Drawn:
         seed: int | None = None,
         copies: Copies = NO_COPIES,
         onto: str = ONTO_PAINT,
+        seen: Pose | None = None,
     ) -> None:
         edits.check(brush)
         self.base, self.layer = sheet_for(painting, layer, onto)
@@ -63,12 +65,12 @@ class Drawn:
         self.copies, self.origin = wrapped(self.layer, level, origin, copies)
         self.own = painting.seed if seed is None else seed
         self.chance = stroke_key(self.own, level, origin)
-        self.limit = Limit.of(painting.selection, level, cache, self.layer.wrap)
+        self.limit = Limit.of(painting.selection, level, cache, self.layer.wrap, seen)
         self.dropped = 0
         self.areas: list[Rect] = []
         self.extra: Map[str, Any] = _NO_MEMBERS
         self.asked: int | None = None
-        self._named, self.onto = layer, onto
+        self._named, self.onto, self._seen = layer, onto, seen
         self._points: list[np.ndarray] = []
         self._count = 0
         self._begin()
@@ -131,5 +133,5 @@ class Drawn:
             raise Refusal("stroke: found no point, expected one at least")
         points = like_first(self._points)
         points.flags.writeable = False
-        about = self._named, self.seed, self.extra, self._copies, self.onto
+        about = self._named, self.seed, self.extra, self._copies, self.onto, self._seen
         return Stroke(self.level, self._told, points, self.brush, *about)

@@ -82,7 +82,7 @@ class Easel(Owned):
         if self.live is not None:
             self.finish()
         self.viewer.look_back(None)
-        about = stroke.layer, stroke.seed, stroke.copies, stroke.onto
+        about = stroke.layer, stroke.seed, stroke.copies, stroke.onto, stroke.seen
         self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, *about)
         self.live.extra = stroke.extra
         self._growth = _NO_GROWTH

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from engine.brush.copies import NO_COPIES, Copies
+from engine.canvas.placing.pose import Pose
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE
 from engine.painting.layering.onto_member import ONTO_PAINT
@@ -120,7 +121,8 @@ class Do:
 @dataclass(frozen=True, slots=True)
 class Begin:
     """The pen touches down: `radius` in pixels of `level`, points relative to `origin`, `time`, seconds since 1970;
-    `layer`: None for the active one; `copies`: where it is drawn again; `onto`: the layer's paint, or its mask."""
+    `layer`: None for the active one; `copies`: where it is drawn again; `onto`: the layer's paint, or its mask;
+    `seen`: where the layer is seen by the selection that limits it, if not where it lies."""
 
     level: int
     origin: tuple[int, int]
@@ -129,6 +131,7 @@ class Begin:
     time: float | None = None
     copies: Copies = NO_COPIES
     onto: str = ONTO_PAINT
+    seen: Pose | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -210,8 +210,8 @@ class Studio(Owned):
     def _begin(self, request: q.Begin) -> None:
         self.lab.settle()
         no_points, when = np.empty((0, 6)), members(request.time)
-        about = request.level, request.origin, no_points, request.brush, request.layer
-        self.easel.begin(c.Stroke(*about, extra=when, copies=request.copies, onto=request.onto))
+        about = request.level, request.origin, no_points, request.brush, request.layer, None, when
+        self.easel.begin(c.Stroke(*about, request.copies, request.onto, request.seen))
 
     def _grow(self) -> None:
         self.grower.step()

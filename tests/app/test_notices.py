@@ -14,6 +14,7 @@ from app.faults.fault_guard import FaultGuard
 from app.input.events import PenEvent
 from app.news import News
 from app.tools.painting_gestures import begin_stroke
+from engine.canvas.placing.pose import Pose
 from engine.files.atomic import replacing
 from engine.files.fault import FileError
 from engine.numeric.address import Rect
@@ -164,15 +165,15 @@ def test_why_nothing_can_be_painted_on_a_layer_is_told_while_it_is_so(screen):
     assert screen.desk.message.text == ""
 
 
-@pytest.mark.parametrize(("at", "painted"), [([40, 0], False), ([0, 0], True)])
-def test_within_a_selection_one_paints_on_what_lies_elsewhere_at_its_source(screen, at, painted):
+@pytest.mark.parametrize(("at", "seen"), [([40, 8], Pose((5, 1), -3)), ([0, 0], None)])
+def test_within_a_selection_what_lies_elsewhere_is_painted_on_as_it_is_seen(screen, at, seen):
     session = Session()
     session.do(c.AddLayer("Leaves"))
     session.do(c.parse({"do": "layer", "add": "Copy", "kind": "placement", "of": "Leaves", "at": at}))
     screen.hear(replace(SCENE, layers=tuple(rows(session.painting.root)), active="Copy"))
-    assert begin_stroke(screen.desk, PenEvent("down", 5.0, 5.0)) is not None
-    screen.desk.selecting.choose(screen.desk.post, Select(Whole("all")))
-    assert (begin_stroke(screen.desk, PenEvent("down", 5.0, 5.0)) is not None) == painted
-    if not painted:
-        assert screen.desk.message.text.startswith("Within a selection paint on “Leaves”")
-        assert screen.desk.message.offers == ("source", "select_none")
+    for selected in (False, True):
+        if selected:
+            screen.desk.selecting.choose(screen.desk.post, Select(Whole("all")))
+        assert begin_stroke(screen.desk, PenEvent("down", 5.0, 5.0)) is not None
+        begun = [one for one in screen.posted if isinstance(one, q.Begin)][-1]
+        assert (begun.layer, begun.seen) == ("Leaves", seen if selected else None)

@@ -10,6 +10,7 @@ import numpy as np
 
 from app.desk.known import Known
 from engine.brush.copies import Copies, Copy
+from engine.canvas.placing.pose import Pose
 from engine.numeric.similarity import IDENTITY, Dyadic, Similarity
 from engine.painting.places import LEVEL_LIMIT
 from engine.painting.points import ALWAYS
@@ -22,6 +23,11 @@ class Through:
 
     layer: str
     similarity: Similarity
+
+    @property
+    def seen(self) -> Pose | None:
+        """Gives where the layer is seen, by which what is selected limits strokes; None: where it lies."""
+        return None if self.similarity == IDENTITY else Pose.of(self.similarity)
 
     def begun(self, level: int, origin: tuple[int, int]) -> Aimed:
         """Returns how a stroke of a level at a pixel goes on the layer."""

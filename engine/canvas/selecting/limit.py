@@ -10,7 +10,9 @@ import numpy as np
 
 from engine.brush.mask import Coverage
 from engine.brush.thinning import LazyTiles, Plane, Thinning
-from engine.canvas.placing.pose import SourcePart
+from engine.canvas.placing.bake import baked
+from engine.canvas.placing.pose import Pose, SourcePart
+from engine.canvas.selecting.carried import Carried
 from engine.canvas.selecting.folded import Folded
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.tile_cache import TileCache
@@ -23,7 +25,7 @@ Value = TypeVar("Value")
 class Limit:
     """A selection as strokes of one level meet it, after `relief`; `cache` keeps its tiles."""
 
-    selection: Selection | Folded
+    selection: Selection | Folded | Carried
     level: int
     cache: TileCache | None = None
     relief: Thinning | None = None
@@ -32,12 +34,23 @@ class Limit:
 
     @classmethod
     def of(
-        cls, selection: Selection | None, level: int, cache: TileCache | None, wrap: SourcePart | None = None
+        cls,
+        selection: Selection | None,
+        level: int,
+        cache: TileCache | None,
+        wrap: SourcePart | None = None,
+        seen: Pose | None = None,
     ) -> Limit | None:
         """Returns the limit that a selection sets; None where there is none, or all is selected.  `wrap`: the cell of a
-        layer that is repeated, on which what is selected in any of its cells is selected in all."""
+        layer that is repeated, on which what is selected in any of its cells is selected in all.  `seen`: where the
+        layer is seen, if not where it lies; LayerError if a layer with a cell is seen so finely that nobody could
+        wait."""
         if selection is None or selection.everything:
             return None
+        if seen is not None and wrap is None:
+            return cls(Carried.of(selection, seen), level, cache)
+        if seen is not None:
+            selection = replace(selection, pyramid=baked(selection.pyramid, seen.similarity.inverse()))
         return cls(selection if wrap is None else Folded(selection, wrap), level, cache)
 
     def after(self, relief: Thinning) -> Limit:

@@ -41,9 +41,13 @@ class Selection:
         """Returns how far the pixels of a rectangle are selected, 0..1: a float where all are alike, else float32
         (h, w), not to be written to."""
         value = evaluate_sparse(self.pyramid, level, rect, cache)
-        if value is None:
+        return self.share(None if value is None else value.rgba)
+
+    def share(self, planes: np.ndarray | None) -> np.ndarray | float:
+        """As `part`, of pixels of its pyramid, (4, h, w); None: nothing lies there."""
+        if planes is None:
             return float(self.inverse)
-        alpha = value.data[_ALPHA]
+        alpha = planes[_ALPHA]
         first = alpha[0, 0]
         if (alpha == first).all():
             return 1.0 - float(first) if self.inverse else float(first)

@@ -150,7 +150,7 @@ def _drawn(touch: Touch, points: np.ndarray) -> c.Command:
     if touch.selects:
         return c.Select(Line(touch.level, touch.origin, points, touch.brush, touch.copies), touch.selects, touch.level)
     about = touch.level, touch.origin, points, touch.brush, touch.layer
-    return c.Stroke(*about, extra=members(touch.time), copies=touch.copies, onto=touch.onto)
+    return c.Stroke(*about, extra=members(touch.time), copies=touch.copies, onto=touch.onto, seen=touch.seen)
 
 
 def _answer(found: Recovered, folder: Path, asked: Unanswered) -> None:

@@ -79,7 +79,7 @@ class Posts:
             number = self.journal.ask(told_command(timed(request.command, request.time)))
         else:
             about = request.level, request.origin, request.brush, request.time
-            number = self._begin(Touch(*about, request.copies, request.layer, request.onto))
+            number = self._begin(Touch(*about, request.copies, request.layer, request.onto, seen=request.seen))
         with self._lock:
             self._open[number] = request
 

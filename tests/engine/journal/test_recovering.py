@@ -16,6 +16,7 @@ from app.__main__ import main
 from engine.archive.opening import open_painting
 from engine.brush.copies import Copy, symmetric
 from engine.brush.settings import Brush
+from engine.canvas.placing.pose import Pose
 from engine.journal import entries
 from engine.journal.heads import FileStamp, head_of_new
 from engine.journal.journal import Journal
@@ -82,7 +83,7 @@ def test_strokes_in_hand_on_a_mask_and_on_the_quick_mask_are_recovered_as_such(t
     for command in (c.AddLayer("sky"), c.SetLayer("sky", mask=MaskOp(MASK_FULL))):
         posts.tell(q.Do(command))
     brush, line, copies = Brush(radius=8.0), points(20), (Copy(1.0, 0.0, 5.0, 0.0, True),)
-    posts.tell(q.Begin(0, (3, 4), brush, onto=ONTO_MASK))
+    posts.tell(q.Begin(0, (3, 4), brush, onto=ONTO_MASK, seen=Pose((7, -2), 1, -1, 3, mirror=True)))
     posts.tell(q.Points(line))
     posts.tell(q.Finish())
     for takes, dropped in ((False, True), (False, False)):
@@ -94,7 +95,7 @@ def test_strokes_in_hand_on_a_mask_and_on_the_quick_mask_are_recovered_as_such(t
     (entry,) = entries.listed(tmp_path / "p")
     found = recovered(entry.folder)
     _, _, stroke, select = found.session.log
-    assert stroke.onto == ONTO_MASK
+    assert (stroke.onto, stroke.seen) == (ONTO_MASK, Pose((7, -2), 1, -1, 3, mirror=True))
     assert (select.op, select.level, select.source.origin, len(select.source.points)) == ("add", 1, (5, 6), 20)
     assert select.source.copies == copies
     assert found.session.painting.selection is not None
