@@ -173,7 +173,10 @@ class Window:
     def _hearers(self, kind: type) -> list[Hear]:
         """Returns those of its parts who hear results of a type."""
         if kind is results.Picture:
-            return [lambda desk, picture, now: self.gallery.hang(picture.ident, picture.pixels)]
+            return [
+                lambda desk, picture, now: self.gallery.hang(picture.ident, picture.pixels),
+                lambda desk, picture, now: desk.awaited.come(picture.ident),
+            ]
         if kind is results.PicturePart:
             return [lambda desk, part, now: self.gallery.touch(part.ident, part.size, part.area, part.pixels)]
         if kind is Tint:

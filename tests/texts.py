@@ -33,7 +33,7 @@ SHOWN = (
         "engine/texture/table.py",
         "engine/numeric/blend.py",
     ),
-    *("engine/studio", "engine/solids/materials.py", "engine/makers/doctor"),
+    *("engine/studio", "engine/solids/materials.py", "engine/solids/material_sliders.py", "engine/makers/doctor"),
 )
 _RAISES = {"Refusal", "FieldError", "FileError", "LayerError", "ValueError", "RuntimeError", "KeyError", "TypeError"}
 _CALLS = {

@@ -16,6 +16,7 @@ from app.canvas.view import Place, View, view_of
 from app.desk.adjusting.adjust_state import AdjustState
 from app.desk.arranging.kept_arrangement import Arranged
 from app.desk.asked import Asked, Then
+from app.desk.examples.awaited import Awaited
 from app.desk.examples.example_state import Entry, ExampleState
 from app.desk.exporting.export_state import ExportState
 from app.desk.filling.fill_state import FillState
@@ -171,6 +172,7 @@ class Desk:
     workshop: WorkshopState = field(default_factory=WorkshopState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
+    awaited: Awaited = field(default_factory=Awaited)  # those asked for that have not come
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square
     previews: Callable[[Path, Iterable[FileRow], int], None] = (
         _no_previews  # asks for pictures of files, as Previews.ask

@@ -86,6 +86,8 @@ class Words:
         if (sentence := text[:1].upper() + text[1:]) in self._whole:  # in the middle of another one
             found = self._whole[sentence]
             yield found if self.code == "de" else found[:1].lower() + found[1:]
+        if (small := text[:1].lower() + text[1:]) in self._whole:  # at the beginning of one
+            yield self._whole[small][:1].upper() + self._whole[small][1:]
 
     def _filled(self, becomes: str, found: dict[str, str]) -> str:
         """Returns a text with its places filled: with the artist's own as it is, else in this language, if that is

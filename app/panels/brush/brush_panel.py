@@ -27,6 +27,7 @@ from app.panels.brush.thickness_section import draw_thickness
 from app.panels.brush.wet_section import WetSection
 from app.panels.controls import widgets as w
 from app.panels.controls.grips import note_grip
+from app.panels.controls.late_picture import draw_late
 from app.panels.options.fill_options import FILL_TOOLS
 from app.tools.tools import TOOLS
 from engine.brush.modes import MODES
@@ -78,6 +79,7 @@ class BrushPanel:
         free = not grows or desk.known.preparing is None  # or the engine would wait for it, and strokes for the engine
         if self._following.due((brush, 0 if lab is None else lab.version), now, free):
             size = (int(PREVIEW[0] * desk.scale), int(PREVIEW[1] * desk.scale))
+            desk.awaited.ask("brush")
             desk.post(Swatch("brush", brush, size, textures=palette.lacking(desk), soon=True))
 
     def draw_tools(self, desk: Desk) -> None:
@@ -135,6 +137,7 @@ class BrushPanel:
             size = 0.8 * imgui.get_font_size()
             at = ImVec2(corner.x + 0.4 * size, end.y - 1.2 * size)
             said.add_text(painter, at, theme.packed(_ON_WHITE), desk.hand.preset, size)
+        draw_late(desk, "brush", corner, end)
 
     def _tools(self, desk: Desk) -> None:
         side = imgui.get_font_size() * 2.1

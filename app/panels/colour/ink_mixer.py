@@ -20,12 +20,13 @@ from app.panels.controls import widgets as w
 from app.panels.controls.colour_popup import colour_popup
 from app.panels.controls.curve_editor import CurveEditor
 from app.panels.controls.kept_switch import kept_switch
+from app.panels.controls.late_picture import draw_late
 from engine.brush.settings import COMPONENTS_CAP, Brush, Component
 from engine.studio.requests import Swatch
 
 DEEPER = 4  # levels: how far the second half of the picture is zoomed in
 SWATCH_WIDTH, SWATCH_HEIGHT = 135, 46  # of each half, points
-_TITLE = 7.5  # of a letter: what the header's title takes
+_ARROW = 2.6  # of a letter: what stands before the header's title, and a gap behind it
 _COLOURS = {"white": "#ffffff", "rock": "#7a6f63", "stripes": "#20242c", "sawtooth": "#f0e2c0", "squares": "#f2f2f2"}
 
 
@@ -41,6 +42,7 @@ class InkPanel:
         plain = Brush(16.0, colour=brush.colour, ink=brush.ink, shaping=brush.shaping)
         if self._following.due((plain, 0 if lab is None else lab.version), now):
             lacking, size = palette.lacking(desk), (int(SWATCH_WIDTH * desk.scale), int(SWATCH_HEIGHT * desk.scale))
+            desk.awaited.ask("ink")
             desk.post(Swatch("ink", plain, size, "fill", textures=lacking, soon=True))
             desk.post(Swatch("ink near", plain, size, "fill", DEEPER, lacking, soon=True))
 
@@ -94,6 +96,7 @@ class InkPanel:
                     -1 & 0xFFFFFFFF,
                     4 * desk.scale,
                 )
+        draw_late(desk, "ink", corner, ImVec2(corner.x + width, corner.y + height))
 
     def _component(self, desk: Desk, component: Component) -> tuple[Component, bool]:
         """Draws one row; (the component as it is now, whether it stays)."""
@@ -157,13 +160,15 @@ class InkPanel:
         in."""
         full, below = len(desk.hand.brush.ink) >= COMPONENTS_CAP, imgui.get_cursor_pos()
         label, padding = f"{icons.ADD}  Add texture", ImVec2(8, 1) * imgui.get_style().font_scale_dpi
-        room = right - imgui.get_style().window_padding.x - imgui.get_font_size() * _TITLE
-        wide = min(said.calc_text_size(label).x + 2 * padding.x, room)
+        taken = imgui.get_style().window_padding.x + said.calc_text_size("Ink mixer").x + imgui.get_font_size() * _ARROW
+        wide = said.calc_text_size(label).x + 2 * padding.x
+        if right - wide < taken:  # the title of some languages leaves room for the sign alone
+            label, wide, padding = f"{icons.ADD}##Add texture", imgui.get_text_line_height() * 1.25, padding / 4
         imgui.same_line(right - wide)
         imgui.set_cursor_pos_y(imgui.get_cursor_pos_y() - 2)
         imgui.push_style_var(imgui.StyleVar_.frame_padding, padding)
         enabled = bool(desk.known.tables.kinds) and not full
-        pressed = w.text_button(label, "Stir a texture into the paint", enabled=enabled, width=wide)
+        pressed = w.text_button(label, "Add a texture: it is stirred into the paint", enabled=enabled, width=wide)
         imgui.pop_style_var()
         if pressed:
             imgui.open_popup("add texture")

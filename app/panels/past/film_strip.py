@@ -12,6 +12,7 @@ from app.desk.desk import Desk
 from app.desk.guides import symmetry
 from app.desk.past.past_state import Run, step_name, when
 from app.language import said
+from app.language.words import say
 from app.panels.past import step_card
 from app.panels.past.step_card import Look
 from engine.studio.past.past_records import PastStep
@@ -96,8 +97,9 @@ class FilmStrip:
         seen = past.looking is not None and run.steps[0].number <= past.looking <= last.number
         look = Look(now, seen, run.steps[0].number > past.scene.done, count)
         label = f"run {run.steps[0].number}"
-        what = "steps" if last.brush is None else "fills" if last.sign == "fill" else "strokes"
-        hint = f"{name}, {count} {what}.  {_GO}" if count > 1 else f"{name}.  {_GO}"
+        strokes = f"{count} fills" if last.sign == "fill" else f"{count} strokes"
+        what = f"{count} steps" if last.brush is None else strokes
+        hint = f"{say(name)}, {say(what)}.  {say(_GO)}" if count > 1 else f"{say(name)}.  {say(_GO)}"
         press = step_card.draw(label, self._picture(desk, last), lines, look, hint)
         if press:
             past.opened = run.steps[0].number

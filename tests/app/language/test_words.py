@@ -13,6 +13,7 @@ CATALOGUE = {
     "{count} more, {hint}": "noch {count}, {hint}",
     "Growing {part} %": "Wächst, {part} %",
     "Size": "Größe",
+    "far from it": "weit davon",
     "A lag: the faster": "Verzug, je schneller",
     "{name} is “{title}” already": "{name} ist schon „{title}“",
 }
@@ -38,6 +39,7 @@ def german(monkeypatch):
         ("Growing 55 %", "Wächst, 55 %"),
         ("Ctrl+S is “Open” already", "Ctrl+S ist schon „Öffnen“"),
         ("Size: A lag: the faster", "Größe: Verzug, je schneller"),
+        ("Far from it", "Weit davon"),
         ("Save the painting.  Open", "Das Bild sichern.  Öffnen"),
         ("Nothing of this", "Nothing of this"),
         ("", ""),
