@@ -115,7 +115,7 @@ class Manifest:
             if any(sha is not None and sha not in pictures for sha in shas):
                 raise FieldError(f"textures.{name}", "no picture", "one of those in the file")
             source, mask, maps, control = (None if sha is None else replace(pictures[sha], name=name) for sha in shas)
-            made[name] = Texture(kind, parameters, source, mask, self.arithmetic, maps, control)
+            made[name] = Texture(kind, parameters, source, mask, self.arithmetic, maps, control).lent(pictures)
             plot_files.check_texture(f"textures.{name}", made[name])
             try:
                 made[name].instance({}, 0, 0)

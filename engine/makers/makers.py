@@ -21,6 +21,7 @@ from engine.keeping.disk_raster import room
 from engine.makers import carved, heeger_bergen, lewis
 from engine.makers.definitions import FIELDS, LEARN, USUAL, kind_of
 from engine.makers.learning import learnt_of, with_maps
+from engine.makers.namesakes import Namesakes, with_names
 from engine.painting.capture import PictureSource, captured, read_bytes, read_straight
 from engine.painting.commands import DefineTexture
 from engine.painting.layering.painting_member import A_FILE, A_PICTURE, HOLDS
@@ -28,6 +29,7 @@ from engine.painting.textures import Around, Texture
 from engine.painting.times import untimed
 from engine.strokes import example_textures
 from engine.texture.expression.library.bundled_texts import generator_library, like_in_library, written_library
+from engine.texture.expression.written_ink import Named
 from engine.texture.image import ImageSource
 from engine.texture.table import DEFINED, EXPRESSION, KINDS
 
@@ -61,7 +63,18 @@ def _written(command: DefineTexture, root: Group, around: Around) -> Texture:
         if found is None:
             raise FieldError("bundled", f"{name!a}", like_in_library(name))
         told = told.set("text", found.text)
-    return Texture(command.maker, told)
+    return with_names(told, _namesakes(root, around))
+
+
+def named_by(text: str, root: Group, around: Around) -> Named:
+    """Returns the textures that a text names over a painting with the layers `root`.  WrittenError tells of a name that
+    there is not."""
+    return tuple(sorted(_namesakes(root, around).of_text(text).items()))
+
+
+def _namesakes(root: Group, around: Around) -> Namesakes:
+    make = partial(define, root=root, around=around)
+    return Namesakes(around.textures, make, around.arithmetic, around.pictures)
 
 
 def _image(command: DefineTexture, root: Group, around: Around) -> Texture:

@@ -240,7 +240,7 @@ def _all_or_part_moved(painting: Painting, node: Node, command: c.SetLayer) -> P
 
 
 def _texture(painting: Painting, command: c.DefineTexture, around: Around) -> Painting:
-    within = replace(around, arithmetic=painting.arithmetic, touches=painting.touches)
+    within = replace(around, arithmetic=painting.arithmetic, touches=painting.touches, textures=painting.textures)
     texture = define(command, painting.root, within)
     return replace(painting, textures=painting.textures.set(command.name, texture))
 

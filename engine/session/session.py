@@ -147,8 +147,8 @@ class Session(Owned):
             self._history.push(self.painting, after)
             self.leapt = self.leapt or self._history.forgotten > 0
         last = self.log[-1] if self.log else None
-        if isinstance(command, c.DefineTexture) and isinstance(last, c.DefineTexture) and last.name == command.name:
-            self.log.pop()  # nothing was done with that one
+        if _replaces(command, last):
+            self.log.pop()
         self.log.append(command)
         if after is not self.painting:
             self.painting, self.state = after, object()
@@ -195,3 +195,10 @@ class Session(Owned):
         self.log.append(command)
         self.heard(command, None)
         return self.painting
+
+
+def _replaces(command: c.Command, last: c.Command | None) -> bool:
+    """Tells whether a definition takes the place of another: nothing was done with that, nor is it named."""
+    if not (isinstance(command, c.DefineTexture) and isinstance(last, c.DefineTexture) and last.name == command.name):
+        return False
+    return command.name not in command.arguments.get("named", ())

@@ -68,8 +68,9 @@ class Instance(Protocol):
 
 
 def pictures_of(made: Instance) -> tuple[ImageSource, ...]:
-    """Returns the pictures that a texture needs: its own, and what was learnt of that."""
+    """Returns the pictures that a texture needs: its own, what was learnt of that, those of textures that it names."""
     while (inner := getattr(made, "inner", None)) is not None:
         made = inner
-    found = (getattr(made, name, None) for name in ("source", "maps"))
+    found = [getattr(made, name, None) for name in ("source", "maps")]
+    found += [one for _, each in getattr(made, "named", ()) for one in pictures_of(each)]
     return tuple(one for one in found if one is not None)

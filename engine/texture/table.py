@@ -8,6 +8,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from engine.checks.field_error import FieldError
@@ -138,11 +139,11 @@ _COVERS: dict[str, Kind] = {
     "series-cover": Kind("series-cover", _SERIES, series_cover, "", pictured=True, endless=True),
 }
 # Not for the brush to name, either, but for definitions: their parameters are no numbers.
-GRADIENT, EXPRESSION = "gradient", "expression"
+GRADIENT, EXPRESSION, EXPRESSION_COVER = "gradient", "expression", "expression-cover"
+NAMED_CAP = 1 << 16  # characters of the key of a texture that another one names
 DEFINED: dict[str, Callable[..., Instance]] = {GRADIENT: gradient, EXPRESSION: expression}
 _OF_KEYS: dict[str, Callable[..., Instance]] = {
     **dict.fromkeys((GRADIENT, "gradient-cover"), gradient_of_key),
-    **dict.fromkeys((EXPRESSION, "expression-cover"), expression_of_key),
     **dict.fromkeys((COLOURS_OF, COVER_OF, ALPHA_OF), generated_of_key),
 }
 KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
@@ -234,6 +235,9 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
         return _placed_from_key(key, images)
     if key[0] == LEARNT:
         return _learnt_from_key(key, images)
+    if key[0] in (EXPRESSION, EXPRESSION_COVER):
+        _check_level(key[1])
+        return _told(expression_of_key, key, partial(_named_in_key, images=images))
     if isinstance(key[0], str) and key[0] in _OF_KEYS:
         _check_level(key[1])
         return _told(_OF_KEYS[key[0]], key)
@@ -257,6 +261,20 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
     known = images.get(sha)
     made = row.make(key[1], *values, ImageSource(name, sha, known.data if known else None))
     return _worked_out(made, arithmetic, renew)
+
+
+def of_keys(named: object, images: Mapping[str, ImageSource]) -> dict[str, Instance]:
+    """Returns textures whose keys are told, by name."""
+    if not isinstance(named, Mapping):
+        raise TextureError("named", described(named), "{name: the key of a texture, ...}")
+    return {str(name): _named_in_key(key, images) for name, key in named.items()}
+
+
+def _named_in_key(key: object, images: Mapping[str, ImageSource]) -> Instance:
+    """Returns a texture that another one names."""
+    if len(str(key)) > NAMED_CAP or not isinstance(key, list | tuple):
+        raise TextureError("named", described(key), f"the key of a texture, of at most {NAMED_CAP} characters")
+    return from_key(key, images)
 
 
 def _told(make: Callable[..., Instance], *about: object) -> Instance:

@@ -13,8 +13,11 @@ from app.panels.workshop import text_colours as colours
 from app.panels.workshop.completing import function_around, offers, word_before
 from engine.brush.parts import Component
 from engine.brush.settings import Brush
+from engine.canvas.layers import EMPTY
+from engine.makers.makers import named_by
 from engine.numeric.address import Rect
 from engine.painting.commands import DefineTexture
+from engine.painting.textures import Around
 from engine.studio.workshop.workshop import language_words
 from engine.studio.workshop.workshop_records import WorkshopAsk, WorkshopSet
 from engine.texture.expression.defined import expression
@@ -28,7 +31,8 @@ NAMES = colours.Names(frozenset(row.name for row in WORDS.functions), frozenset(
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.title)
 def test_lessons_are_right_and_begin_with_what_they_teach(lesson):
     assert lesson.about.startswith(f"{lesson.title}: ")
-    expression({"text": lesson.text}, -4)
+    named = named_by(lesson.text, EMPTY, Around())
+    assert expression({"text": lesson.text, "named": dict(named)}, -4).named == named
 
 
 def test_a_word_is_completed_by_what_begins_with_it_then_by_what_holds_it():

@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 from immutables import Map
 
+from engine.painting.commands import DefineTexture
+from engine.painting.value import Painting
+from engine.session.session import Session
 from engine.studio.workshop import workshop_records as wr
 from engine.studio.workshop.workshop import Workshop
 
@@ -61,6 +64,16 @@ def test_a_text_is_told_line_by_line(room):
     assert pictures["workshop texture"].shape == (96, 160, 4)
     assert pictures["workshop levels"].shape[1] == wr.LEVELS_SHOWN * wr.LEVEL_SIDE
     assert pictures["workshop lines"].shape == (wr.LINE_SIDE, wr.LINES_ACROSS * wr.LINE_SIDE, 4)
+
+
+def test_a_text_names_what_the_painting_has(room):
+    room.easel.session = Session(Painting())
+    room.easel.session.do(DefineTexture("mine", "expression", Map({"text": "#ff0000"})))
+    assert room.scene('red("mine"()) + 0*"rock"()').lines[-1].least == pytest.approx(1.0)
+    mistake = room.scene('x = "mine"()\n"yours"()').mistake
+    assert (mistake.line, mistake.column, mistake.found) == (1, 1, '"x"')
+    mistake = room.scene('a = "mine"()\n"yours"()').mistake
+    assert (mistake.line, mistake.column, mistake.found) == (2, 1, '"yours"')
 
 
 def test_the_first_picture_comes_before_all_else(room):

@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from app.cli.arguments import Parser, read_place, seed, size
 from app.cli.outcome import DONE, Refused
 from app.cli.output import checked_output
 from app.cli.progress import Progress
+from app.cli.written.named_files import defined_among, text_of_file, textures_named
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 _ABOUT = "Draws a texture written as an expression: named lines, the last one is the texture.  Its words: --words"
 _SIZE = (512, 512)
 _ROWS, _COLUMNS = 128, 2048  # pixels that are made at a time
-_BYTES_MOST = 1 << 20  # of a file: more is no text that can be read
 _LEVELS = 1 << 16
 
 
@@ -69,6 +68,13 @@ def _parser() -> Parser:
     parser.add_argument("--period", type=float, default=64.0, metavar="P", help="what x = 1 is, in pixels of level 0")
     parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another texture (default 0)")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a slider, or a colour")
+    parser.add_argument(
+        "--texture",
+        action="append",
+        default=[],
+        metavar="NAME=FILE",
+        help='a picture or a .txt that the text names, "NAME"(x, y)',
+    )
     parser.add_argument("--depth", type=int, choices=(8, 16), default=8, help="bits")
     parser.add_argument("--debug", metavar="SHEET.png", help="each of its lines as a picture, and how far it shimmers")
     parser.add_argument("--words", action="store_true", help="tell all functions of the language")
@@ -92,24 +98,27 @@ def _text(given: argparse.Namespace) -> _Given:
         raise Refused(f"texture expression: found {found}, expected FILE or --text T")
     if given.text is not None:
         return _Given(given.text, "--text")
-    try:
-        data = Path(given.file).read_bytes()[: _BYTES_MOST + 1]
-        return _Given(data.decode("utf-8-sig"), given.file)
-    except OSError as error:
-        raise Refused(f"{given.file}: {error.strerror or error}") from None
-    except UnicodeDecodeError:
-        raise Refused(f"{given.file}: found bytes that are no UTF-8, expected a text") from None
+    return _Given(text_of_file(given.file), given.file)
 
 
 def _made(text: _Given, given: argparse.Namespace) -> Expression:
     """Returns the texture, by the same command as in a recording."""
+    from immutables import Map
+
     from engine.checks.field_error import FieldError
+    from engine.painting.commands import DefineTexture
     from engine.texture.expression.defined import expression
+    from engine.texture.expression.written_ink import Expression
 
     values = dict(_setting(word) for word in given.set)
-    told = {"text": text.text, "period": given.period, "seed": given.seed, "values": values}
+    told = {"text": text.text, "period": given.period, "seed": given.seed, "values": Map(values)}
+    others = textures_named(given.texture)
     try:
-        return expression(told, min(given.level, 0))
+        if '"' not in text.text:
+            return expression(told, min(given.level, 0))
+        made = defined_among(others, DefineTexture("", "expression", Map(told))).instance({}, min(given.level, 0), 0)
+        assert isinstance(made, Expression)
+        return made
     except FieldError as error:
         where = _where(error.place, text.where)
         raise Refused(f"{where}: found {error.found}, expected {error.expected}") from None

@@ -271,12 +271,13 @@ class PaintedHere:
         if id(definitions) not in self._made:
             painting = self._painting
             pictures = {t.source.sha: t for t in painting.textures.values() if t.source is not None}
+            lent = {one.sha: one for texture in painting.textures.values() for one in texture.pictures}
             made = dict(painting.textures)
             for name, command in definitions.items():
                 row, plain = KINDS.get(command.maker), untimed(command)
                 same = pictures.get(command.arguments.get("sha", ""))
                 if command.maker in DEFINED or (row is not None and not row.pictured):
-                    made[name] = Texture(command.maker, plain.arguments)
+                    made[name] = Texture(command.maker, plain.arguments).lent(lent)
                 elif same is not None:
                     made[name] = replace(same, kind=kind_of(plain), parameters=plain.arguments)
             if len(self._made) >= _KEPT:

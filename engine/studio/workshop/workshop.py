@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from engine.checks.owned import Owned
+from engine.makers.makers import named_by
 from engine.numeric.address import Rect
 from engine.studio import faults, results
 from engine.studio.easel import Easel
@@ -22,7 +23,7 @@ from engine.texture.expression.defined import check_woven
 from engine.texture.expression.examined import line_look, shimmer, values_at
 from engine.texture.expression.language import FUNCTIONS, read
 from engine.texture.expression.written import PICK, PLACE_NAMES, SLIDER, Adjustable, WrittenError, WrittenText
-from engine.texture.expression.written_ink import Expression
+from engine.texture.expression.written_ink import Expression, Named
 
 _FIRST = 128  # pixels of a picture that is shown before it is whole
 _LOOKED = (96, 96)  # pixels over which the least and the greatest value of a line are sought
@@ -90,7 +91,7 @@ class Workshop(Owned):
     def _shown(self, asked: wr.WorkshopSet) -> Iterator[None]:
         """Does all there is to do for a text: yields after each piece."""
         try:
-            known = _read(asked, self._known)
+            known = _read(asked, self._known, self._named(asked.text))
         except WrittenError as error:
             mistake = wr.WorkshopMistake(error.line, error.column, error.found, error.expected)
             good = self._known.scene if self._known is not None else wr.WorkshopScene("")
@@ -112,6 +113,14 @@ class Workshop(Owned):
         side = min(_SHIMMERS, *asked.size)
         rect = Rect.at(*asked.origin, side, side)
         self._tell(shimmer=shimmer(known.made, asked.level, rect, known.number).rms * 255.0)
+
+    def _named(self, text: str) -> Named:
+        """Returns the textures that a text names, as the painting has them now."""
+        if '"' not in text:
+            return ()
+        session = self._easel.session
+        painting = session.painting
+        return named_by(text, painting.root, replace(session.around(), textures=painting.textures))
 
     def _ready(self) -> Iterator[None]:
         """Waits until the kernels are there."""
@@ -215,12 +224,12 @@ def _fitted(slider: Adjustable, value: object) -> float | str:
     return min(max(float(value), slider.least), slider.most) if isinstance(value, int | float) else slider.usual
 
 
-def _read(asked: wr.WorkshopSet, before: _Known | None) -> _Known:
+def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
     """Returns a text that was read, and what its lines are.  WrittenError tells what is wrong with it."""
     written = read(asked.text)
     values = taken_values(written, asked.values)
-    check_woven(asked.text, values, 0, asked.period)
-    made = Expression(asked.level, asked.text, asked.period, 0, 0, values)
+    check_woven(asked.text, values, named, 0, asked.period)
+    made = Expression(asked.level, asked.text, asked.period, 0, 0, values, False, named)
     lines = tuple(wr.WorkshopLine(line.name, written.place(line.at)[0], False, 1, 0.0) for line in written.lines)
     if before is not None and _alike(before, asked):
         lines = before.scene.lines

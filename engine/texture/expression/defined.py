@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_integer, is_within
@@ -17,14 +18,14 @@ from engine.texture.expression.written import (
     WrittenText,
     is_colour,
 )
-from engine.texture.expression.written_ink import Expression, woven_line
+from engine.texture.expression.written_ink import Expression, Named, Values, woven_line
+from engine.texture.record import Instance
 
 PERIOD = 64.0  # pixels, usually
 PERIOD_LEAST, PERIOD_MOST = 2.0**-10, 2.0**40
 _NEAR = 12  # levels finer: where all octaves are in sight
 _DEEPEST = 1 << 16
-
-Values = tuple[tuple[str, float | str], ...]
+_NAMED_DEEP = 12  # texts that name textures, within one another
 
 
 def expression(parameters: Mapping[str, object], base: int) -> Expression:
@@ -47,20 +48,33 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
         values = chosen_values(written, parameters.get("values", {}))
         if written.presses:  # as one value more, which is the pen's to set
             values = (*values, (PRESSURE, _pressure(parameters.get("weight", 1.0))))
-        check_woven(text, values, seed, float(period))
+        named = _named(parameters.get("named", {}))
+        check_woven(text, values, named, seed, float(period))
     except WrittenError as error:
         raise FieldError(f"text, line {error.line}, column {error.column}", error.found, error.expected) from None
-    return Expression(base, text, float(period), level, seed, values)
+    return Expression(base, text, float(period), level, seed, values, False, named)
 
 
-def expression_of_key(key: Sequence[object]) -> Expression:
-    """Returns the texture whose key this is; FieldError names what is wrong."""
+def _named(given: object) -> Named:
+    """Returns the textures that a text names, in an order that does not hang on what was given."""
+    if not isinstance(given, Mapping) or not all(hasattr(made, "appearance") for made in given.values()):
+        raise FieldError("named", described(given), "{name: a texture, ...}")
+    deep = max((made.deep for made in given.values() if isinstance(made, Expression)), default=0)
+    if deep >= _NAMED_DEEP:
+        raise FieldError("named", f"names within names, {deep + 1} deep", f"{_NAMED_DEEP} at most")
+    return tuple(sorted(given.items(), key=lambda pair: str(pair[0])))
+
+
+def expression_of_key(key: Sequence[object], of_key: Callable[[object], Instance]) -> Expression:
+    """Returns the texture whose key this is; `of_key` makes those that it names.  FieldError names what is wrong."""
     base = key[1]
     if len(key) < 6 or len(key) % 2 or not isinstance(base, int):
         raise FieldError("key", described(list(key)), "[kind, base level, text, period, level, seed, name, value, ...]")
-    values = {str(name): value for name, value in zip(key[6::2], key[7::2], strict=True)}
+    pairs = [(str(name), value) for name, value in zip(key[6::2], key[7::2], strict=True)]
+    values = {name: value for name, value in pairs if not name.startswith('"')}
+    named = {name.strip('"'): of_key(inner) for name, inner in pairs if name.startswith('"')}
     told = {"text": key[2], "period": key[3], "level": key[4], "seed": key[5], "weight": values.pop(PRESSURE, 1.0)}
-    made = expression({**told, "values": values}, base)
+    made = expression({**told, "values": values, "named": named}, base)
     return replace(made, covers=key[0] == "expression-cover")
 
 
@@ -71,10 +85,11 @@ def _pressure(weight: object) -> float:
     return float(weight) + 0.0
 
 
-def check_woven(text: str, values: Values, seed: int = 0, period: float = PERIOD) -> None:
+@lru_cache(256)
+def check_woven(text: str, values: Values, named: Named = (), seed: int = 0, period: float = PERIOD) -> None:
     """Weaves a text from near and far.  WrittenError if it cannot be, or is too dear."""
     for finer in (0, _NEAR):
-        woven = woven_line(text, values, seed, finer, period)
+        woven = woven_line(text, values, named, seed, finer, period)
         cost = woven.cost * (POINT_SIDE**2 if woven.rough or woven.jumps else 1)  # about; measuring needs kernels
         if cost > COST_MOST:
             told = f"{cost / 1000.0:.0f} microseconds a pixel"

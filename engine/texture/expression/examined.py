@@ -83,7 +83,7 @@ def shimmer(made: Expression, level: int, rect: Rect, number: int = -1) -> Shimm
 
 @lru_cache(256)
 def _line_program(made: Expression, number: int, finer: int) -> Program:
-    return woven_program(made.text, made.values, made.seed, finer, made.period, number)
+    return woven_program(made.text, made.values, made.named, made.seed, finer, made.period, number)
 
 
 def _line(made: Expression, number: int, level: int) -> Program:

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 
 from engine.numeric import elementary
 from engine.texture.expression.codes import COST, Code
+from engine.texture.expression.naming.elsewhere import Elsewhere
 
 NODES_MOST = 5000  # operations of one texture
 NO_ERROR = 2  # the node of 0, in every graph
+ASKED_COST = 150.0  # nanoseconds a sample, about, of a channel of a texture of another maker
 
 
 class TooLarge(ValueError):
@@ -75,6 +77,7 @@ class Graph:
         self._known: dict[tuple[object, ...], int] = {}
         self.x, self.y = self.node(Code.X), self.node(Code.Y)
         self.ways = {self.x: (1.0, 0.0), self.y: (0.0, 1.0)}  # of what is told by place: how fast it rises
+        self.elsewhere: list[Elsewhere] = []  # textures of other makers that it asks for
         assert self.constant(0.0) == NO_ERROR
 
     def node(self, code: int, *parts: int, numbers: tuple[float, ...] = (), key: tuple[int, ...] = (), kind: int = 0,
@@ -190,6 +193,7 @@ def cost_of(graph: Graph, nodes: Iterable[int]) -> float:
     for node in needed_by(graph, nodes):
         told = graph.operations[node]
         total += _octaves_cost(graph, told) if told.code == Code.NOISE else COST[told.code]
+        total += ASKED_COST if told.code == Code.PICTURE and told.parts else 0.0
     return total
 
 

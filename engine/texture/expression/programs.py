@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -12,6 +12,7 @@ from engine.numeric.address import Rect
 from engine.texture.expression import machine
 from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph, Operation, needed_by
+from engine.texture.expression.naming.asking import AskedPlace, AskedTexture, asked_of, place_asked
 from engine.texture.expression.noise_rows import ROOM
 from engine.texture.expression.sampling.errors import FEW_FROM, JUMP_SIDE, MANY_FROM, POINT_SIDE
 from engine.texture.expression.sampling.sample_trial import far_apart
@@ -28,7 +29,7 @@ class Program:
 
     Where `finer` is told, the last plane is the error of a pixel, and finer(side) the program for those pixels that
     take more samples, `most` along each at most; where it `compares`, all take four, and those more in which these are
-    far from one.
+    far from one.  `asks`: what it asks of textures of other makers, each with the program of the places.
     """
 
     steps: np.ndarray
@@ -44,6 +45,7 @@ class Program:
     finer: Callable[[int], Program] | None = None
     compares: bool = False
     most: int = JUMP_SIDE
+    asks: tuple[tuple[AskedTexture, Program], ...] = ()
 
     @property
     def channels(self) -> int:
@@ -53,17 +55,57 @@ class Program:
     def over(self, xs: np.ndarray, ys: np.ndarray, row: int, pictures: np.ndarray | None = None) -> np.ndarray:
         """Returns the means over pixels, float32 (planes, pixels); `xs`, `ys`: the places of their samples, (samples of
         a pixel, pixels); `row`: pixels in a row; `pictures` that it takes, (n, samples of a pixel, pixels)."""
+        if self.asks and xs.shape[1] > _AT_ONCE:
+            parts = [slice(n, n + _AT_ONCE) for n in range(0, xs.shape[1], _AT_ONCE)]
+            cut = [(np.ascontiguousarray(xs[:, part]), np.ascontiguousarray(ys[:, part])) for part in parts]
+            return np.concatenate([self.over(across, down, _AT_ONCE) for across, down in cut], axis=1)
         out = np.zeros((self.shown.size, xs.shape[1]), np.float32)
-        registers = np.zeros((self.registers, machine.LENGTH))
-        registers[: self.constants.size] = self.constants[:, None]
-        if pictures is None:
+        if self.asks:
+            pictures = _answers(self.asks, xs.reshape(-1), ys.reshape(-1)).reshape(-1, *xs.shape)
+        elif pictures is None:
             pictures = np.zeros((1, *xs.shape)) if _looks(self.steps) else _NOTHING
-        room = np.empty((5, ROOM, machine.LENGTH))
-        machine.run(self.steps, self.numbers, self.keys, xs, ys, row, self.shown, pictures, registers, room, out)
+        self._run(xs, ys, row, self.shown, pictures, self._registers(), out)
         return out
 
+    def values(self, xs: np.ndarray, ys: np.ndarray, pictures: np.ndarray) -> np.ndarray:
+        """Returns what it shows at samples as it is, neither bounded nor rounded: float64 (shown, n); `pictures`:
+        (n, 1, samples)."""
+        out, registers = np.empty((self.shown.size, xs.size)), self._registers()
+        looks, nothing = _looks(self.steps), np.zeros(0, np.int32)
+        for start in range(0, xs.size, machine.LENGTH):
+            part = slice(start, min(start + machine.LENGTH, xs.size))
+            size = part.stop - start
+            seen = np.ascontiguousarray(pictures[:, :, part]) if looks else _NOTHING
+            places = xs[None, part], ys[None, part]
+            self._run(*places, size, nothing, seen, registers, np.zeros((0, size), np.float32))
+            out[:, part] = registers[self.shown, :size]
+        return out
 
-_COLUMNS = 12
+    def _registers(self) -> np.ndarray:
+        registers = np.zeros((self.registers, machine.LENGTH))
+        registers[: self.constants.size] = self.constants[:, None]
+        return registers
+
+    def _run(
+        self, xs: np.ndarray, ys: np.ndarray, row: int, shown: np.ndarray, pictures: np.ndarray, registers: np.ndarray,
+        out: np.ndarray,
+    ) -> None:  # fmt: skip
+        room = np.empty((5, ROOM, machine.LENGTH))
+        machine.run(self.steps, self.numbers, self.keys, xs, ys, row, shown, pictures, registers, room, out)
+
+
+def _answers(asks: tuple[tuple[AskedTexture, Program], ...], xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
+    """Returns the pictures that hold what textures of other makers show at samples: float64 (planes, n)."""
+    last = asks[-1][0]
+    pictures = np.zeros((last.plane + last.planes, xs.size))
+    for asked, places in asks:
+        answer = asked.answer(*places.values(xs, ys, pictures[:, None]))
+        pictures[asked.plane : asked.plane + len(answer)] = answer
+    return pictures
+
+
+_AT_ONCE = 1 << 12  # pixels, where there are pictures for each of their samples
+_COLUMNS, _COUNT = 12, 8
 _NOTHING = np.zeros((1, 1, 1))
 
 
@@ -75,7 +117,17 @@ def program(woven: Woven, side: int, finer: Callable[[int], Program] | None = No
     """Returns the program that works out what was woven, with so many samples along a pixel, and its error where
     `finer` is told."""
     graph, shown = woven.graph, (*woven.value.nodes, woven.value.error)[: None if finer else -1]
-    needed = needed_by(graph, shown)
+    asked = asked_of(graph, needed_by(graph, shown), len(woven.takes))
+    made = replace(
+        _assembled(graph, shown, asked), side=side, cost=woven.cost * side**2, whole=woven.whole, takes=woven.takes,
+        finer=finer, compares=compares,
+    )  # fmt: skip
+    return replace(made, asks=tuple((one, _assembled(graph, one.parts, asked)) for one in asked.values()))
+
+
+def _assembled(graph: Graph, shown: tuple[int, ...], asked: Mapping[AskedPlace, AskedTexture]) -> Program:
+    """Returns the program of some nodes, those of textures of other makers being there already."""
+    needed = _needed(graph, shown)
     fixed = [node for node in needed if graph.operations[node].code == Code.CONST]
     rows = {node: n for n, node in enumerate(fixed)}
     numbers: list[float] = []
@@ -97,7 +149,9 @@ def program(woven: Woven, side: int, finer: Callable[[int], Program] | None = No
         if node not in rows:
             alike = kin.get(node, (node,))
             made = [room() for _ in alike]
-            step = _step(told, made[0], [rows[part] for part in told.parts], len(numbers), len(keys))
+            step = _step(told, made[0], [rows[part] for part in _parts(told)], len(numbers), len(keys))
+            if told.code == Code.PICTURE and told.parts:
+                step[_COUNT] = asked[place_asked(told)].picture(told)
             if len(made) > 1:
                 step[-1] = machine.WITH_SLOPES
             steps.append([*step, *made[1:], 0, 0][:_COLUMNS])
@@ -105,13 +159,27 @@ def program(woven: Woven, side: int, finer: Callable[[int], Program] | None = No
             keys += told.key
             rows |= {one: row for one, row in zip(alike, made, strict=True) if one >= 0}
             free += [row for one, row in zip(alike, made, strict=True) if one < 0]
-        free += [rows[part] for part in set(told.parts) if last[part] == node and part not in constant]
+        free += [rows[part] for part in set(_parts(told)) if last[part] == node and part not in constant]
     return Program(
         np.array(steps, np.int32).reshape(-1, _COLUMNS), np.array([*numbers, 0.0]), np.array([*keys, 0], np.uint32),
         np.array([graph.value(node) for node in fixed], np.float64), max(count, 1),
-        np.array([rows[node] for node in shown], np.int32), side, woven.cost * side**2, woven.whole, woven.takes,
-        finer, compares,
+        np.array([rows[node] for node in shown], np.int32), 1, 0.0,
     )  # fmt: skip
+
+
+def _needed(graph: Graph, nodes: Iterable[int]) -> list[int]:
+    """Returns what nodes need, as `needed_by`, but nothing of places at which other textures are asked for."""
+    found, open_ = set(), list(nodes)
+    while open_:
+        node = open_.pop()
+        if node not in found:
+            found.add(node)
+            open_.extend(_parts(graph.operations[node]))
+    return sorted(found)
+
+
+def _parts(told: Operation) -> tuple[int, ...]:
+    return () if told.code == Code.PICTURE else told.parts
 
 
 def _kin(graph: Graph, needed: Iterable[int]) -> dict[int, tuple[int, int, int]]:
@@ -125,7 +193,7 @@ def _kin(graph: Graph, needed: Iterable[int]) -> dict[int, tuple[int, int, int]]
 
 
 def _last_uses(graph: Graph, needed: Iterable[int], shown: Iterable[int]) -> dict[int, int]:
-    last = {part: node for node in needed for part in graph.operations[node].parts}
+    last = {part: node for node in needed for part in _parts(graph.operations[node])}
     return last | dict.fromkeys(shown, -1)
 
 

@@ -56,7 +56,7 @@ def _power(graph: Graph, node: int, told: Operation, slopes: list[int]) -> int:
 
 
 def _scattered(graph: Graph, node: int, told: Operation, slopes: list[int]) -> int:
-    """Smooth noise and cells: by their own slopes along u and v."""
+    """Smooth noise and cells, textures of other makers: by their own slopes along u and v."""
     if told.slope:
         return graph.constant(0.0)
     total = graph.constant(0.0)
@@ -96,6 +96,7 @@ _RULES: dict[int, _Rule] = {
     Code.NOISE: _scattered,
     Code.CELLS: _scattered,
     Code.RAMP: _ramp,
+    Code.PICTURE: _scattered,
 }
 
 

@@ -13,13 +13,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NoReturn, Protocol
 
 from engine.numeric.formula import CONSTANTS
-from engine.numeric.reader import quoted
 from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import NO_ERROR, Graph, TooLarge
+from engine.texture.expression.naming.elsewhere import Elsewhere
 from engine.texture.expression.sampling.errors import Errors
 from engine.texture.expression.slopes import Slopes
 from engine.texture.expression.spreads import Spreads
@@ -65,12 +65,36 @@ class Env:
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """`values`: of sliders, by name; `level`, `seed` as the text sees them; `width`: of a sample, in periods."""
+    """`values`: of sliders, by name; `level`, `seed` as the text sees them; `width`: of a sample, in periods; `named`:
+    textures of other makers, and of other texts, by the names that the text has for them; `side`: samples along a
+    pixel."""
 
     values: Mapping[str, float | str]
     level: int
     seed: int
     width: float
+    named: Mapping[str, Elsewhere | NamedText] = field(default_factory=dict)
+    side: int = 1
+
+
+class NamedText(Protocol):
+    """Another written texture, as `written_ink.Expression`."""
+
+    @property
+    def text(self) -> str:
+        """Gives its text."""
+
+    @property
+    def seed(self) -> int:
+        """Gives its seed."""
+
+    @property
+    def values(self) -> tuple[tuple[str, float | str], ...]:
+        """Gives the values of its sliders."""
+
+    @property
+    def by_name(self) -> Mapping[str, Elsewhere | NamedText]:
+        """Gives the textures that it names itself."""
 
 
 Rule = Callable[["Weaver", Term, Env], Value]
@@ -124,6 +148,7 @@ class Weaver:
         self.slopes, self.spreads = Slopes(self.graph), Spreads(self.graph, setting.width)
         self._lines = {line.name: n for n, line in enumerate(written.lines)}
         self._known: dict[tuple[int, Env], Value] = {}
+        self.texts: dict[tuple[NamedText | str, Env], Value] = {}  # others that were asked for, and where
         self.errors = Errors(self.graph, self.width)
         self.deep = 0
         zero = self.graph.constant(0.0)
@@ -245,12 +270,16 @@ def aslant(weaver: Weaver, node: int, mean: Callable[[int, int], int]) -> int:
     return weaver.graph.times(weaver.graph.add(*halves), 0.5)
 
 
-def woven_within(weaver: Weaver, written: WrittenText) -> Weaver:
-    """Returns one that asks for the parts of another text, in this one's graph, its sliders as they usually are."""
-    other = Weaver(written, replace(weaver.setting, values={}), weaver.rules)
+def woven_within(weaver: Weaver, written: WrittenText, told: NamedText | None = None) -> Weaver:
+    """Returns one that asks for the parts of another text, in this one's graph: its sliders and its seed as they are
+    told, else the sliders as they usually are."""
+    about = replace(weaver.setting, values={}, named={})
+    if told is not None:
+        about = replace(about, values=dict(told.values), seed=told.seed, named=told.by_name)
+    other = Weaver(written, about, weaver.rules)
     other.graph, other.slopes, other.spreads = weaver.graph, weaver.slopes, weaver.spreads
     other.here, other.deep, other.scene = weaver.here, weaver.deep, weaver.scene
-    other.errors = weaver.errors
+    other.errors, other.texts = weaver.errors, weaver.texts
     return other
 
 
@@ -301,10 +330,6 @@ def _name(weaver: Weaver, term: Term, env: Env) -> Value:
     return Value((weaver.graph.constant(told[term.told]),))
 
 
-def _elsewhere(weaver: Weaver, term: Term, env: Env) -> Value:
-    weaver.refuse(term, f"the texture {quoted(term.told[1:-1])}", "a texture of this text: others cannot be named yet")
-
-
 def _first(weaver: Weaver, term: Term, env: Env) -> Value:
     return weaver.value(term.parts[0], env)
 
@@ -314,7 +339,6 @@ _OWN: dict[str, Rule] = {
     "constant": _constant,
     "colour": _colour,
     "name": _name,
-    "texture": _elsewhere,
     SLIDER: _first,
     PICK: _first,
 }

@@ -111,6 +111,11 @@ class WrittenText:
         return any(term.operation in PLACERS for term in self._terms())
 
     @property
+    def named(self) -> list[Term]:
+        """Gives the parts that name textures, in the order of the text."""
+        return sorted((term for term in self._terms() if term.operation == "texture"), key=lambda term: term.token.at)
+
+    @property
     def follows(self) -> bool:
         """Tells whether it is made for a stroke: places things, or goes by where the stroke runs."""
         own = {line.name for line in self.lines}

@@ -6,6 +6,7 @@ when the coarser one is taken from it.  A number is grey, -1..1 for 0..1; a colo
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, partial
@@ -16,12 +17,14 @@ from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.texture.expression.kept_squares import from_squares
 from engine.texture.expression.language import read, weave
+from engine.texture.expression.naming.elsewhere import Elsewhere, unit_of
 from engine.texture.expression.placing.placed_scene import drawn_plainly
 from engine.texture.expression.programs import Program, program
 from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
 from engine.texture.expression.sampling.sample_trial import measured_side, samples_of
 from engine.texture.expression.weaving import Setting, Woven
 from engine.texture.expression.written import PRESSURE
+from engine.texture.record import Instance
 
 STAGES = 5  # pressures from 0 to 1, between which is mixed
 FINEST_PIXEL = 34  # a pixel of 2^-34 periods is the last that differs from its neighbours
@@ -29,25 +32,41 @@ _COARSEST = -40  # levels above where the period is told
 _MEMO = 256
 
 
+Values = tuple[tuple[str, float | str], ...]
+Named = tuple[tuple[str, Instance], ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Expression:
     """`period`: pixels of `level` that the text calls 1; `values`: of all its sliders, by name; `covers`: not the
-    colours, but what they hide."""
+    colours, but what they hide; `named`: textures that the text names and that do not come along, by name."""
 
     base: int
     text: str
     period: float
     level: int
     seed: int
-    values: tuple[tuple[str, float | str], ...] = ()
+    values: Values = ()
     covers: bool = False
+    named: Named = ()
 
     @property
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
         kind = "expression-cover" if self.covers else "expression"
-        pairs = (part for pair in self.values for part in pair)
+        pairs: list[object] = [part for pair in self.values for part in pair]
+        pairs += [part for name, made in self.named for part in (f'"{name}"', made.key)]
         return (kind, self.base, self.text, self.period, self.level, self.seed, *pairs)
+
+    @property
+    def by_name(self) -> Mapping[str, Elsewhere | Expression]:
+        """Gives the textures that it names, by name."""
+        return textures_by_name(self.named)
+
+    @property
+    def deep(self) -> int:
+        """Tells how many texts name one another within it."""
+        return 1 + max((made.deep for _, made in self.named if isinstance(made, Expression)), default=0)
 
     @property
     def stages(self) -> int:
@@ -68,7 +87,7 @@ class Expression:
 
     def at(self, level: int) -> Program:
         """Returns the program that draws a level."""
-        return _program(self.text, self.values, self.seed, level - self.level, self.period)
+        return _program(self.text, self.values, self.named, self.seed, level - self.level, self.period)
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
         """Gives S at a level over a rectangle, as `Instance.appearance`: (1, h, w); of colours premultiplied (4, h,
@@ -90,14 +109,18 @@ class Expression:
 
     def means(self, level: int, rect: Rect) -> np.ndarray:
         """Returns what the pixels of a rectangle show: float32, (1, h, w) of -1..1 or (4, h, w) of 0..1."""
-        about = self.text, self.values, self.seed, level - self.level, self.period
+        about = self.text, self.values, self.named, self.seed, level - self.level, self.period
         return from_squares(_shown_on, about, self.at(level).channels, rect)
 
 
-def _shown_on(
-    text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, rect: Rect
-) -> np.ndarray:
-    made = _program(text, values, seed, finer, period)
+@lru_cache(_MEMO)
+def textures_by_name(named: Named) -> Mapping[str, Elsewhere | Expression]:
+    """Returns textures by name, as a text asks for them."""
+    return {name: made if isinstance(made, Expression) else Elsewhere(made, unit_of(made)) for name, made in named}
+
+
+def _shown_on(text: str, values: Values, named: Named, seed: int, finer: int, period: float, rect: Rect) -> np.ndarray:
+    made = _program(text, values, named, seed, finer, period)
     out = drawn_plainly(made, rect, pixels(period, finer))
     if made.channels == 1:
         out *= np.float32(2.0)
@@ -117,25 +140,25 @@ def _always(made: Program, channel: int, value: float) -> bool:
 
 
 @lru_cache(_MEMO)
-def _program(text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float) -> Program:
-    return woven_program(text, values, seed, finer, period)
+def _program(text: str, values: Values, named: Named, seed: int, finer: int, period: float) -> Program:
+    return woven_program(text, values, named, seed, finer, period)
 
 
 def woven_line(
-    text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, line: int = -1,
+    text: str, values: Values, named: Named, seed: int, finer: int, period: float, line: int = -1,
     side: int = 1,
 ) -> Woven:  # fmt: skip
     """Returns what a line of a text is, so many levels finer than where its period is told, for one of so many samples
     along a pixel."""
     width = float(1 / pixels(period, max(finer, _COARSEST))) / side
-    return weave(read(text), Setting(dict(values), finer, seed, width), line)
+    return weave(read(text), Setting(dict(values), finer, seed, width, textures_by_name(named), side), line)
 
 
 def woven_program(
-    text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, line: int = -1
+    text: str, values: Values, named: Named, seed: int, finer: int, period: float, line: int = -1
 ) -> Program:
     """Returns the program of a line of a text: what it is for the samples that it asks for."""
-    about = (text, values, seed, finer, period, line)
+    about = (text, values, named, seed, finer, period, line)
     woven, made, many = woven_line(*about), partial(_sampled, *about), pixels(period, max(finer, _COARSEST))
     if woven.whole is not None:
         return made(POINT_SIDE if woven.rough or woven.jumps else 1)
@@ -154,7 +177,7 @@ def woven_program(
 
 @lru_cache(_MEMO)
 def _sampled(
-    text: str, values: tuple[tuple[str, float | str], ...], seed: int, finer: int, period: float, line: int, side: int
+    text: str, values: Values, named: Named, seed: int, finer: int, period: float, line: int, side: int
 ) -> Program:
     """Returns the program of a line for so many samples along each pixel."""
-    return program(woven_line(text, values, seed, finer, period, line, side), side)
+    return program(woven_line(text, values, named, seed, finer, period, line, side), side)

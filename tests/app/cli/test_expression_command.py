@@ -47,12 +47,27 @@ def test_grey_and_what_is_clear_have_channels_of_their_own(text, channels, bits,
         assert (drawn(out)[:, 9:, 0] == 255).all()
 
 
+def test_it_draws_what_a_text_names(tmp_path, capsys):
+    picture, text, out = tmp_path / "a.png", tmp_path / "b.txt", tmp_path / "out.png"
+    Image.fromarray(np.arange(48, dtype=np.uint8).reshape(6, 8) * 5).save(picture)
+    text.write_text('1 - luma("a"(x, y))')
+    words = ["texture", "expression", "--out", str(out), "--size", "16x12", "--period", "16", "--depth", "16"]
+    named = ["--texture", f"a={picture}", "--texture", f"b={text}"]
+    assert main([*words, "--text", 'luma("a"()) + "b"()', *named]) == 0
+    assert (drawn(out) == 65535).all()
+    assert main([*words, "--text", '"b"()', *named]) == 0
+    assert len(np.unique(drawn(out))) > 40
+
+
 def test_it_tells_its_words(capsys):
     assert main(["texture", "expression", "--words"]) == 0
     assert "noise(x, y, seed): " in capsys.readouterr().out
 
 
 WRONG = (
+    (["--text", '"a"()'], '--text, line 1, column 1: found "a", expected the name of a texture'),
+    (["--text", '"a"()', "--texture", "a=gone.txt"], "gone.txt: No such file"),
+    (["--text", '"a"()', "--texture", "a"], "--texture: found 'a', expected NAME=FILE"),
     (["--text", "a = noise(x, y)\nnoyse(x, y)"], '--text, line 2, column 1: found "noyse"'),
     (["--text", "x", "--set", "a=1"], "--set"),
     (["--text", "a = slider(0, 0, 1); a", "--set", "a=2"], "--set a: found 2"),

@@ -103,6 +103,9 @@ MADE: dict[str, dict[str, Any]] = {
     "gradient": texture("gradient", ramp=RAMP, **{"from": [3, 9], "to": [71, 50]}),
     "expression": texture("expression", text=WRITTEN, period=31, values={"deep": 0.4}),
     "expression-colours": texture("expression", text=WRITTEN_COLOURS, seed=3),
+    "expression-named": texture(
+        "expression", text='mix("rock"(x*3, y), "moss"(y, x + "stripes"()), "leaves"())', seed=2
+    ),
     "gradient-radial": texture("gradient", kind="radial", ramp=RAMP, **{"from": [41, 33], "to": [77, 50]}),
     "gradient-angular": texture("gradient", kind="angular", level=1, ramp=RAMP, **{"from": [80, 61], "to": [77, 20]}),
     "match": texture("match", path="colour.png", iterations=2, levels=3),

@@ -15,8 +15,11 @@ import numpy as np
 
 from engine.checks.field_error import FieldError
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import EVERYWHERE
+from engine.texture import table
 from engine.texture.expression.defined import expression
 from engine.texture.expression.language import FUNCTIONS
+from engine.texture.expression.naming.bound import bound_anew
 from engine.texture.expression.written import PLACE_NAMES
 
 NUMBERS = ("0", "1", "0.5", "2", "7", "1e9", "1e-9", "1e300", "1e-300", ".1", "64", "3", "0.3", "33", "-1", "360")
@@ -28,6 +31,10 @@ JUNK = (
     *"os while not and is None if else slider( pick( 1e999 0x10 1j".split(),  # noqa: SIM905
     *("\n", "\t", "\r", "\0", "\u202e", "\u212f", "\U0001f600", "\x7f", "\xe9"),
 )
+TEXTURES = ("rock", "squares", "text", "clouds", "nobody", "x")
+PLACED = ("", "x, y", "y*3, x", "x/0, 1e300*y", "noise(x, y)*9, x", "white(x*9, y), 1", "x", '"rock"(), y')
+NAMED = {name: bound_anew(table.instance(name, {}, 0, 0, arithmetic=EVERYWHERE)) for name in TEXTURES[:2]}
+NAMED["text"] = expression({"text": 'noise(x*4, y*4)*"rock"(y, x)', "named": NAMED}, 0)
 PLACES = ((0, Rect(-3, 5, 5, 9)), (-9, Rect(0, 0, 4, 2)), (21, Rect((5 << 21) - 2, -7, (5 << 21) + 6, -4)))
 
 
@@ -76,6 +83,8 @@ class Writer:
         chance = self._of.random()
         if names and chance < 0.2:
             return self._of.choice(names)
+        if self._of.random() < 0.06:
+            return f'"{self._of.choice(TEXTURES)}"({self._of.choice(PLACED)})'
         if chance < 0.65:
             return self._of.choice(("x", "y", "x*4", "y*3", *NAMES))
         return self._of.choice(NUMBERS) if chance < 0.92 else self._of.choice(COLOURS)
@@ -93,7 +102,7 @@ class Writer:
 def tried(text: str) -> bool:
     """Tells whether a text is a texture; AssertionError if it is one that has no values, or no mistake."""
     try:
-        made = expression({"text": text}, -9)
+        made = expression({"text": text, "named": NAMED}, -9)
     except FieldError as error:
         told = str(error)
     else:

@@ -1,0 +1,205 @@
+"""What the names in a written texture stand for: kinds of texture, inks of brushes and examples that come along, and
+the textures of a painting.
+
+What comes along wins.  A name is looked up where the texture is defined, and what it stands for is kept with the
+definition: nothing that is defined later changes it, so no name leads to itself.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from immutables import Map
+
+from engine.brush import settings
+from engine.brush.checks import frozen
+from engine.brush.ink import named as of_component
+from engine.brush.parts import Component
+from engine.brush.settings import Brush
+from engine.checks.field_error import FieldError
+from engine.checks.values import described
+from engine.makers import definitions
+from engine.numeric.reader import quoted
+from engine.painting.capture import read_straight
+from engine.painting.commands import DefineTexture
+from engine.painting.textures import Texture
+from engine.texture.expression.defined import expression
+from engine.texture.expression.language import read
+from engine.texture.expression.library.bundled_texts import written_library
+from engine.texture.expression.naming.bound import bound_anew
+from engine.texture.expression.written import WrittenError, WrittenText, close_to
+from engine.texture.expression.written_ink import Expression, woven_line
+from engine.texture.image import Image, ImageSource
+from engine.texture.record import Instance, pictures_of
+from engine.texture.shaped import shaped
+from engine.texture.table import EXPRESSION, KINDS, instance, of_keys
+
+NAMES_MOST = 16  # of one text
+_PALETTES = Path(__file__).resolve().parents[2] / "palettes"
+_SLOW = (*definitions.MATCHED, definitions.LEARN, "example", "canvas")  # makers that take long, or need a painting
+_USUAL_PERIOD = 32.0
+
+_INKS_KEPT = 64
+_INKS: dict[tuple[str, int, int], Instance] = {}  # by name, seed and arithmetic
+
+Define = Callable[[DefineTexture], Texture]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Namesakes:
+    """Where names are looked up: a painting's `textures`; `seed`: of those that tell none; `define` makes the textures
+    that a brush brings along, in an `arithmetic`; `pictures`: those that are known by their sha."""
+
+    textures: Mapping[str, Texture]
+    define: Define
+    arithmetic: int
+    pictures: Mapping[str, ImageSource] = Map()
+    seed: int = 0
+
+    def of_text(self, text: str, told: Mapping[str, object] = Map()) -> dict[str, Instance]:
+        """Returns the textures that a text names and that are not written ones that come along, by name; those whose
+        keys are `told` as they were then.  WrittenError tells of a name that there is not."""
+        written, found = read(text), dict[str, Instance]()
+        for term in written.named:
+            name = term.told.strip('"')
+            if name in written_library() or name in found:
+                continue
+            if len(found) == NAMES_MOST:
+                raise _refused(written, term.token.at, "one name more", f"{NAMES_MOST} names of textures at most")
+            try:
+                made = self._as_told(name, told[name]) if name in told else self._of_name(name)
+            except FieldError as error:
+                raise _refused(written, term.token.at, error.found, error.expected) from None
+            if made is None:
+                raise _refused(written, term.token.at, quoted(name), self._expected(name))
+            if isinstance(made, Expression) and read(made.text).follows:
+                raise _refused(written, term.token.at, f"{quoted(name)}, made for a stroke", "a texture that is not")
+            found[name] = made
+        return found
+
+    def _as_told(self, name: str, key: object) -> Instance:
+        """Returns what a name stood for when its text was defined; where a picture is not there, as now, if that is
+        the same."""
+        made = of_keys({name: key}, self.pictures)[name]
+        if all(one.there for one in pictures_of(made)):
+            return made
+        now = self._of_name(name)
+        if now is None or now.key != made.key:
+            raise FieldError("named", f"{name!a} as another texture", "what it was when this was recorded")
+        return now
+
+    def _of_name(self, name: str) -> Instance | None:
+        kind = KINDS.get(name)
+        if kind is not None and not kind.pictured and kind.parameters:
+            return bound_anew(instance(name, {}, 0, self.seed, arithmetic=self.arithmetic))
+        found = self._of_brush(name) if name in bundled_inks() else None
+        found = found or (bundled_picture(name) if name in bundled_pictures() else None)
+        return found or self._of_painting(name)
+
+    def _of_painting(self, name: str) -> Instance | None:
+        texture = self.textures.get(name)
+        if texture is None:
+            return None
+        own = {} if "seed" in texture.parameters or texture.kind != EXPRESSION else {"seed": self.seed}
+        return bound_anew(texture.instance(own, 0, self.seed))
+
+    def _of_brush(self, name: str) -> Instance:
+        """Returns what the ink of a brush that comes along looks like, as a written texture of that."""
+        about = name, self.seed, self.arithmetic
+        if about not in _INKS:
+            if len(_INKS) >= _INKS_KEPT:
+                _INKS.clear()
+            _INKS[about] = self._ink(name)
+        return _INKS[about]
+
+    def _ink(self, name: str) -> Instance:
+        brush, textures = bundled_inks()[name]
+        defined = {command.name: self.define(command) for command in textures}
+        named, parts, periods = dict[str, Instance](), list[str](), list[float]()
+        for number, component in enumerate(brush.ink, 1):
+            own = of_component(component, defined, 0, self.seed, name)
+            periods.append(_period(own))
+            named[str(number)] = bound_anew(shaped(own, component.shaping, brush.shaping))
+            parts.append(_part(number, component, periods[0] / periods[-1], _shows_colours(own)))
+        text = "\n".join((f"ground = {brush.colour}", " + ".join(("ground", *parts))))
+        return expression({"text": text, "named": named, "seed": self.seed}, 0)
+
+    def _expected(self, name: str) -> str:
+        kinds = [row.name for row in KINDS.values() if row.parameters and not row.pictured]
+        every = [*written_library(), *kinds, *bundled_inks(), *bundled_pictures(), *self.textures]
+        like = close_to(name, every)
+        about = "the name of a texture that comes along or that the painting has"
+        return about + (f", such as {like}" if like else "")
+
+
+def with_names(told: Map[str, Any], known: Namesakes) -> Texture:
+    """Returns a written texture with all that its text names: as it is told, else as names are looked up now."""
+    text, seed, kept = told.get("text"), told.get("seed", 0), told.get("named", Map())
+    if not isinstance(kept, Mapping):
+        raise FieldError("named", described(kept), "{name: the key of a texture, ...}")
+    if not isinstance(text, str) or not isinstance(seed, int):  # which is told where it is checked
+        return Texture(EXPRESSION, told)
+    try:
+        made = replace(known, seed=seed).of_text(text, kept) if '"' in text else {}
+    except WrittenError as error:
+        raise FieldError(f"text, line {error.line}, column {error.column}", error.found, error.expected) from None
+    keys = Map({name: frozen(one.key) for name, one in made.items()})
+    pictures = {one.sha: one for each in made.values() for one in pictures_of(each)}
+    told = told.set("named", keys) if keys or "named" in told else told
+    return Texture(EXPRESSION, told, named=tuple(pictures.values()))
+
+
+def _refused(written: WrittenText, at: int, found: str, expected: str) -> WrittenError:
+    return WrittenError(written.place(at), found, expected)
+
+
+def _period(made: Instance) -> float:
+    """Returns how many pixels a texture that a brush names calls 1."""
+    found = getattr(made, "period", _USUAL_PERIOD)
+    return float(found) if isinstance(found, int | float) else _USUAL_PERIOD
+
+
+def _shows_colours(made: Instance) -> bool:
+    if isinstance(made, Expression):
+        return woven_line(made.text, made.values, made.named, made.seed, 0, made.period).value.coloured
+    return bool(getattr(made, "coloured", False) or isinstance(made, Image))
+
+
+def _part(number: int, component: Component, often: float, coloured: bool) -> str:
+    """Returns what a component adds to the brush's colour, as `engine.brush.ink` mixes it."""
+    place = "x, y" if often == 1.0 else f"x*{often:.9g}, y*{often:.9g}"
+    seen = f'"{number}"({place})'
+    if coloured:
+        return f"({component.colour}*{seen} - ground)*{component.amount:.9g}"
+    return f"({component.colour} - ground)*({component.amount:.9g}*{seen})"
+
+
+@lru_cache(1)
+def bundled_inks() -> Mapping[str, tuple[Brush, tuple[DefineTexture, ...]]]:
+    """Returns the brushes that come along and have textures in their ink, with what defines these, by name."""
+    found = {}
+    for path in sorted((_PALETTES / "brushes").glob("*.json")):
+        told = json.loads(path.read_text("utf-8"))
+        brush = settings.from_json(told.get("brush", told))
+        textures = definitions.used(brush, definitions.read(told.get("textures", []), "textures", path.parent))
+        if brush.ink and brush.row.lays_ink and not any(command.maker in _SLOW for command in textures):
+            found[path.stem] = brush, textures
+    return Map(found)
+
+
+@lru_cache(1)
+def bundled_pictures() -> Mapping[str, Path]:
+    """Returns the pictures of examples that come along, by name."""
+    paths = sorted((_PALETTES / "examples").glob("*.png"))
+    return Map({path.stem: path for path in paths if "." not in path.stem})
+
+
+@lru_cache(8)
+def bundled_picture(name: str) -> Instance:
+    """Returns the picture of an example that comes along as a texture."""
+    return bound_anew(Image(0, 1, ImageSource.of_raster(name, read_straight(str(bundled_pictures()[name]), None))))

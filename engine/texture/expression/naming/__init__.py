@@ -1,0 +1,1 @@
+"""Textures by their names within written ones, those that other makers make."""
