@@ -63,7 +63,7 @@ PLACEMENT_ACTIONS: dict[str, A] = {
     "source": A("Go to source", "Layer/Placement", (), "Choose what it shows, to paint on that", _go_to_source, _leads),
     "independent": A(
         "Make independent", "Layer/Placement", (),
-        "Make paint of its own of what it shows: turned by parts, ink becomes pixels",
+        "Bake: paint of its own of what it shows; turned by parts, ink becomes pixels",
         _make_independent, _shows_any,
     ),
     "mirror_layer": A(

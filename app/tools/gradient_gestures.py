@@ -17,7 +17,7 @@ _DRAG = 4.0  # points of the screen that a drag goes at least
 
 
 def gradient(desk: Desk, first: PenEvent) -> Gesture:
-    """A drag fills; at steps of 15° with Shift, from its middle with Alt."""
+    """A drag fills, which is seen meanwhile; at steps of 15° with Shift, from its middle with Alt."""
     if refused(desk) or not may_fill(desk):
         return
     level, event = desk.view.shown_level, first
@@ -28,11 +28,16 @@ def gradient(desk: Desk, first: PenEvent) -> Gesture:
             end = desk.view.to_canvas(event.x, event.y).offset(level, x, y)
             path = shape_paths.line(start.offset(level, x, y), end, desk.pointer.shift, desk.pointer.alt)
             desk.guides.path = on_screen(desk.view, level, (x, y), path)
+            (left, top), (right, bottom) = path
+            ends = (x + left, y + top), (x + right, y + bottom)
+            dragged = math.dist((event.x, event.y), (first.x, first.y)) >= _DRAG * desk.scale
             if event.kind in ENDS:
                 break
+            if dragged:
+                gradients.look(desk, start, level, *ends)
             event = yield
+        if event.kind == "up" and dragged:
+            gradients.lay(desk, start, level, *ends)
     finally:
         desk.guides.path = ()
-    if event.kind == "up" and math.dist((event.x, event.y), (first.x, first.y)) >= _DRAG * desk.scale:
-        (left, top), (right, bottom) = path
-        gradients.lay(desk, start, level, (x + left, y + top), (x + right, y + bottom))
+        gradients.leave(desk)

@@ -19,6 +19,7 @@ from engine.canvas.placing.pose import SourcePart
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.session.session import Session
+from engine.studio.adjusting.trial_records import TryFill
 from engine.studio.layer_rows import LayerRow
 from engine.studio.results import Scene
 from engine.studio.selecting.ants_records import Ants
@@ -45,7 +46,12 @@ def dragged(level=0, place=None, ants=None, wrap=None, **settings):
     with pytest.raises(StopIteration):
         gesture.send(PenEvent("up", 140.0, 50.0, button=1))
     assert not desk.guides.path
-    return [request.command for request in requests], desk
+    if not requests:  # too deep
+        return [], desk
+    tried, *asked, left = requests
+    assert (tried.level, tried.texture.arguments["level"], left) == (level - 2, level, TryFill(None))
+    assert tried.area == desk.view.visible(level - 2) or FRAME.zoomed(level - 2).intersect(tried.area) == tried.area
+    return [request.command for request in asked], desk
 
 
 @pytest.mark.parametrize(("fades", "other"), [(False, (0, 0, 1, 1)), (True, (0, 0, 0, 0))])

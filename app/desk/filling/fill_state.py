@@ -8,6 +8,7 @@ from app.canvas.view import View
 from engine.numeric.address import Rect
 from engine.painting.commands import DefineTexture
 from engine.painting.fill_command import LOOKED_AT_CAP, Fill, Like
+from engine.studio.adjusting.trial_records import TryFill
 
 WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
 
@@ -18,7 +19,8 @@ class FillState:
     `grown`: px of the screen by which the wand goes under the soft rim of what it finds; `fill_grown`: by which a
     fill does; `last`: what was asked for last. Of what is gone round `boxed`: by a rectangle; `regions`: which of it,
     as `Like` has them. Of gradients `shape`: its kind; `fades`: to nothing, not to the other colour; `gradient`: the
-    one laid last; `named`: the names of those that were asked for."""
+    one laid last; `tried`: the one that is seen while it is dragged; `named`: the names of those that were asked
+    for."""
 
     tolerance: float = 0.12
     gap: float = 0.0
@@ -32,6 +34,7 @@ class FillState:
     shape: str = "linear"
     fades: bool = False
     gradient: DefineTexture | None = None
+    tried: TryFill | None = None
     named: set[str] = field(default_factory=set)
 
 

@@ -19,10 +19,13 @@ from engine.brush.settings import Brush
 from engine.makers.definitions import refers
 from engine.painting.commands import DefineTexture
 from engine.painting.fill_command import Fill, Like
+from engine.painting.places import LEVEL_LIMIT
+from engine.studio.adjusting.trial_records import TryFill
 from engine.studio.requests import Do
 
 FRAME_CAP = 1 << 22  # pixels of a frame that are filled: a larger one is at a coarser level
 LAST = "Gradient"  # the name of the one laid last
+_COARSER = 2  # levels by which what is seen of one while it is dragged is coarser
 _DEEPEST_PLACE = float(1 << 50)  # px: beyond, the ends of a gradient would not be where they were put
 
 GRADIENT_SHAPES = (
@@ -38,19 +41,45 @@ def lay(desk: Desk, at: Place, level: int, start: Corner, end: Corner) -> None:
     if max(map(abs, (*start, *end))) > _DEEPEST_PLACE:
         desk.say("This is too deep for a gradient", bad=True)
         return
-    start, end = _in_cell(desk, level, start, end)
     name = _defined(desk, level, start, end)
-    colour = to_hex(desk.hand.colour)
-    if desk.filling.fades:
-        brush = Brush(colour=colour, density=Surface(name))
-    else:
-        brush = Brush(colour=colour, ink=(Component(name),))
-    ants = desk.selecting.ants
+    brush, ants = _brush(desk, name), desk.selecting.ants
     if ants is not None and ants.bounded:
         post_fill(desk, Fill(brush, level=level))
     else:
         post_fill(desk, Fill(brush, _ground(desk, at), open=True))
     desk.hand.remember()
+
+
+def look(desk: Desk, at: Place, level: int, start: Corner, end: Corner) -> None:
+    """Shows the gradient that `lay` would lay, at a coarser level and as far as it is in sight."""
+    if max(map(abs, (*start, *end))) > _DEEPEST_PLACE:
+        return
+    ants = desk.selecting.ants
+    coarse = max(desk.view.shown_level - _COARSER, -LEVEL_LIMIT)
+    area, frame = desk.view.visible(coarse), desk.known.frame.zoomed(coarse)
+    if not (ants is not None and ants.bounded) and _in_frame(desk, at):
+        area = area.intersect(frame)
+    name = LAST if _lists_one(desk) else free_name(LAST, {*desk.filling.named, *_known(desk)})
+    texture = DefineTexture(name, "gradient", _told(desk, level, start, end))
+    wanted = TryFill(_brush(desk, name), coarse, area, texture, desk.masks.onto(desk.known.active))
+    if wanted != desk.filling.tried and not area.empty:
+        desk.filling.tried = wanted
+        desk.post(wanted)
+
+
+def leave(desk: Desk) -> None:
+    """Shows the painting as it is."""
+    if desk.filling.tried is not None:
+        desk.filling.tried = None
+        desk.post(TryFill(None))
+
+
+def _brush(desk: Desk, name: str) -> Brush:
+    """Returns the brush that fills with a gradient of a name."""
+    colour = to_hex(desk.hand.colour)
+    if desk.filling.fades:
+        return Brush(colour=colour, density=Surface(name))
+    return Brush(colour=colour, ink=(Component(name),))
 
 
 def _in_cell(desk: Desk, level: int, start: Corner, end: Corner) -> tuple[Corner, Corner]:
@@ -68,14 +97,25 @@ def _in_cell(desk: Desk, level: int, start: Corner, end: Corner) -> tuple[Corner
 def _defined(desk: Desk, level: int, start: Corner, end: Corner) -> str:
     """Defines the texture of the gradient, and returns its name: the painting lists the last one alone, however many
     are laid, but for those that are kept."""
+    told = _told(desk, level, start, end)
+    gradient = DefineTexture(LAST if _lists_one(desk) else _free(desk), "gradient", told)
+    desk.filling.gradient = gradient
+    desk.post(Do(gradient))
+    return gradient.name
+
+
+def _told(desk: Desk, level: int, start: Corner, end: Corner) -> Map[str, object]:
+    """Returns the arguments that define a gradient from one place to another."""
     state = desk.filling
+    start, end = _in_cell(desk, level, start, end)
     ends = ("#ffffff", "#ffffff00") if state.fades else (to_hex(desk.hand.colour), to_hex(desk.hand.other_colour))
     ramp = ((0.0, ends[0]), (1.0, ends[1]))
-    told = Map({"kind": state.shape, "from": start, "to": end, "level": level, "ramp": ramp})
-    free = _known(desk).get(LAST, "gradient") == "gradient" and not refers(desk.hand.brush, LAST)
-    state.gradient = DefineTexture(LAST if free else _free(desk), "gradient", told)
-    desk.post(Do(state.gradient))
-    return state.gradient.name
+    return Map({"kind": state.shape, "from": start, "to": end, "level": level, "ramp": ramp})
+
+
+def _lists_one(desk: Desk) -> bool:
+    """Tells whether the one laid last may be listed under the name that it always has."""
+    return _known(desk).get(LAST, "gradient") == "gradient" and not refers(desk.hand.brush, LAST)
 
 
 def may_keep(desk: Desk) -> bool:
@@ -107,11 +147,14 @@ def _free(desk: Desk) -> str:
 
 def _ground(desk: Desk, at: Place) -> Like:
     """Returns all that a gradient covers where no more is selected than elsewhere."""
-    level = desk.view.shown_level
-    x, y = at.pixel(0)
-    frame = desk.known.frame
-    if not (frame.x0 <= x < frame.x1 and frame.y0 <= y < frame.y1):
+    level, frame = desk.view.shown_level, desk.known.frame
+    if not _in_frame(desk, at):
         return all_in(desk.view.visible(level), level)
     while frame.zoomed(level).area > FRAME_CAP:
         level -= 1
     return all_in(frame.zoomed(level), level)
+
+
+def _in_frame(desk: Desk, at: Place) -> bool:
+    (x, y), frame = at.pixel(0), desk.known.frame
+    return frame.x0 <= x < frame.x1 and frame.y0 <= y < frame.y1

@@ -11,6 +11,7 @@ from engine.canvas.node_checks import LayerError
 from engine.checks.owned import Owned
 from engine.painting.fill_command import Fill, Like
 from engine.painting.value import Refusal
+from engine.session.apply import apply
 from engine.strokes.all_painted import level_for_all
 from engine.strokes.filling import filled
 from engine.studio import requests as q
@@ -31,7 +32,8 @@ class Trials(Owned):
     @property
     def pending(self) -> bool:
         """Tells whether something is to be shown."""
-        return self._asked is not None
+        asked = self._asked
+        return asked is not None and (asked.texture is None or not self._easel.viewer.sight.open)
 
     def step(self) -> None:
         """Shows what was asked for last."""
@@ -41,11 +43,15 @@ class Trials(Owned):
         if request is None or request.brush is None or request.area is None:
             self._easel.viewer.look_back(None)
             return
-        painting, cache = self._easel.session.painting, self._easel.session.cache
+        session = self._easel.session
+        painting = session.painting
         try:
-            self._tell_level()
+            if request.texture is None:
+                self._tell_level()
             like = Like((request.area.x0, request.area.y0), request.level, request.area, 1.0, 0, False)
-            seen = filled(painting, Fill(request.brush, like, open=True), cache)
+            ground = painting if request.texture is None else apply(painting, request.texture, session.around())
+            seen = filled(ground, Fill(request.brush, like, open=True, onto=request.onto), session.cache)
+            seen = painting if seen is ground else seen
         except (Refusal, LayerError, BrushError) as error:
             self._easel.send(Note(str(error), bad=True))
             seen = painting

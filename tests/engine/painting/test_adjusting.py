@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from immutables import Map
 
 from engine.brush.settings import from_json
 from engine.canvas import layers
@@ -140,6 +141,14 @@ def test_it_is_seen_before_it_is_done_and_goes_again():
     tried = seen()
     assert (tried != before).any()
     assert [told for told in sent if isinstance(told, Tried)] == [Tried("sky", 0)]
+    studio.do(TryFill(None))
+    np.testing.assert_array_equal(seen(), before)
+    told = {"kind": "linear", "from": (0, 0), "to": (40, 0), "level": 0, "ramp": ((0, "#ff0000"), (1, "#0000ff"))}
+    gradient = c.DefineTexture("G", "gradient", Map(told))
+    laid = from_json({"ink": [{"texture": "G"}]})
+    studio.do(TryFill(laid, -1, FRAME.zoomed(-1), gradient))
+    assert (seen() != before).any()
+    assert "G" not in session.painting.textures
     studio.do(TryFill(None))
     np.testing.assert_array_equal(seen(), before)
     session.do(c.Fill(brush, whole=True))
