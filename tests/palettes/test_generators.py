@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from app.desk.holding.dipping import dipped
 from app.desk.holding.generator_brushes import GENERATORS, generator_brushes
 from engine.numeric.address import Rect
 from engine.texture.expression.defined import expression
@@ -36,3 +37,4 @@ def test_they_are_brushes_of_a_group():
     assert {preset.group for preset in found} == {GENERATORS}
     assert {preset.brush.row.name for preset in found} == {"generate"}
     assert len({preset.name for preset in found}) == len(NAMES) >= 10
+    assert all(dipped(one.brush, "#fe5b5b").ink == dipped(one.brush, "#000000").ink for one in found)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from app.desk.holding.dipping import dipped
 from app.desk.holding.written_brushes import GROUP, written_brushes
 from app.desk.presets import bundled_folder, load_brushes
 from engine.checks.field_error import FieldError
@@ -43,6 +44,7 @@ def test_they_are_brushes_of_a_group():
     others, _ = load_brushes(bundled_folder())
     taken = {one.name.casefold() for preset in others for one in (preset, *preset.textures)}
     assert not taken & {preset.name.casefold() for preset in found}
+    assert all(dipped(one.brush, "#fe5b5b").ink == dipped(one.brush, "#000000").ink for one in found)
     drawn = next(preset for preset in found if preset.name == "Basket")
     picture = painted(Swatch(drawn.name, drawn.brush, (104, 44), textures=drawn.textures), Painting())
     assert picture[3].max() > 0.9

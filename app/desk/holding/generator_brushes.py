@@ -18,7 +18,7 @@ def generator_brushes() -> list[Preset]:
 
 
 def _preset(one: LibraryText) -> Preset:
-    ink = [{"texture": one.title, "amount": 1}]
+    ink = [{"texture": one.title, "amount": 1, "fixed": True}]  # roofs and leaves have colours of their own
     told = {"mode": "generate", "radius": 48, "spacing": 0.1, "ink": ink, "dynamics": {"radius": [[0, 0.4], [1, 1]]}}
     definition = DefineTexture(one.title, "expression", Map({"text": one.text}))
     return Preset(one.title, settings.from_json(told), None, GENERATORS, (definition,), tags=tuple(one.about.split()))

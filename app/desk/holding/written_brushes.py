@@ -29,7 +29,8 @@ def _definition(title: str, text: str) -> DefineTexture:
 
 def _brush(title: str) -> Brush:
     part = {"texture": title, "amount": 1}
-    return settings.from_json({**_SHAPE, **({"density": part} if title in _LINES else {"ink": [part]})})
+    own = {**part, "fixed": True}  # it has colours of its own, whatever the hand paints with
+    return settings.from_json({**_SHAPE, **({"density": part} if title in _LINES else {"ink": [own]})})
 
 
 def _tags(about: str) -> tuple[str, ...]:
