@@ -67,6 +67,8 @@ def _parser() -> Parser:
     parser.add_argument("--origin", type=read_place, default=(0, 0), metavar="X,Y", help="in pixels of the level")
     parser.add_argument("--period", type=float, default=64.0, metavar="P", help="what x = 1 is, in pixels of level 0")
     parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another texture (default 0)")
+    parser.add_argument("--pressure", type=_pressure, default=1.0, metavar="P", help="of the pen, 0 to 1 (default 1)")
+    parser.add_argument("--stages", type=int, default=5, metavar="N", help="mixed pressures, 2 to 9 (default 5)")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a slider, or a colour")
     parser.add_argument(
         "--texture",
@@ -92,6 +94,16 @@ def _level(text: str) -> int:
     return value
 
 
+def _pressure(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value <= 1.0:
+        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected a number from 0 to 1")
+    return value
+
+
 def _text(given: argparse.Namespace) -> _Given:
     if (given.file is None) == (given.text is None):
         found = "both" if given.file is not None else "neither"
@@ -111,7 +123,14 @@ def _made(text: _Given, given: argparse.Namespace) -> Expression:
     from engine.texture.expression.written_ink import Expression
 
     values = dict(_setting(word) for word in given.set)
-    told = {"text": text.text, "period": given.period, "seed": given.seed, "values": Map(values)}
+    told = {
+        "text": text.text,
+        "period": given.period,
+        "seed": given.seed,
+        "values": Map(values),
+        "stages": given.stages,
+    }
+    told |= {"weight": given.pressure}
     others = textures_named(given.texture)
     try:
         if '"' not in text.text:
@@ -158,7 +177,7 @@ def _write(given: argparse.Namespace, made: Expression, whole: Rect) -> int:
     with Progress("drawing", whole.height) as tell, replacing(given.out) as file:
         writer = PngWriter(file, whole.width, whole.height, channels, given.depth)
         done = 0
-        for rows in _strips(made, given.level, whole, given.depth):
+        for rows in _strips(made, whole, given):
             writer.rows(rows)
             done += len(rows)
             tell(done)
@@ -170,18 +189,19 @@ def _channels(made: Expression, level: int) -> int:
     return 1 if made.at(level).channels == 1 else (3 if made.cover is None else 4)
 
 
-def _strips(made: Expression, level: int, whole: Rect, depth: int) -> Iterator[np.ndarray]:
+def _strips(made: Expression, whole: Rect, given: argparse.Namespace) -> Iterator[np.ndarray]:
     """Yields rows of the texture as pixels: uint8 or uint16 (n, w, channels), alpha not premultiplied."""
     import numpy as np
 
     from engine.numeric.address import Rect
 
-    channels = _channels(made, level)
+    channels = _channels(made, given.level)
     for y in range(whole.y0, whole.y1, _ROWS):
         pieces = []
         for x in range(whole.x0, whole.x1, _COLUMNS):
             rect = Rect(x, y, min(x + _COLUMNS, whole.x1), min(y + _ROWS, whole.y1))
-            pieces.append(_pixels(made.means(level, rect), channels, depth))
+            mixed = [np.float32(part) * one.means(given.level, rect) for part, one in made.under(given.pressure)]
+            pieces.append(_pixels(np.sum(mixed, axis=0), channels, given.depth))
         yield np.ascontiguousarray(np.concatenate(pieces, axis=1))
 
 

@@ -18,7 +18,15 @@ from engine.texture.expression.written import (
     WrittenText,
     is_colour,
 )
-from engine.texture.expression.written_ink import Expression, Named, Values, woven_line
+from engine.texture.expression.written_ink import (
+    STAGES_LEAST,
+    STAGES_MOST,
+    USUAL_STAGES,
+    Expression,
+    Named,
+    Values,
+    woven_line,
+)
 from engine.texture.record import Instance
 
 PERIOD = 64.0  # pixels, usually
@@ -52,7 +60,11 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
         check_woven(text, values, named, seed, float(period))
     except WrittenError as error:
         raise FieldError(f"text, line {error.line}, column {error.column}", error.found, error.expected) from None
-    return Expression(base, text, float(period), level, seed, values, False, named)
+    stages = parameters.get("stages", USUAL_STAGES)
+    if not is_within(stages, STAGES_LEAST, STAGES_MOST, whole=True):
+        raise FieldError("stages", described(stages), f"an integer from {STAGES_LEAST} to {STAGES_MOST}")
+    assert isinstance(stages, int)
+    return Expression(base, text, float(period), level, seed, values, False, named, stages)
 
 
 def _named(given: object) -> Named:

@@ -7,7 +7,7 @@ when the coarser one is taken from it.  A number is grey, -1..1 for 0..1; a colo
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, partial
 
@@ -26,7 +26,7 @@ from engine.texture.expression.weaving import Setting, Woven
 from engine.texture.expression.written import PRESSURE
 from engine.texture.record import Instance
 
-STAGES = 5  # pressures from 0 to 1, between which is mixed
+USUAL_STAGES, STAGES_LEAST, STAGES_MOST = 5, 2, 9  # pressures from 0 to 1, between which is mixed
 FINEST_PIXEL = 34  # a pixel of 2^-34 periods is the last that differs from its neighbours
 _COARSEST = -40  # levels above where the period is told
 _MEMO = 256
@@ -39,7 +39,8 @@ Named = tuple[tuple[str, Instance], ...]
 @dataclass(frozen=True, slots=True)
 class Expression:
     """`period`: pixels of `level` that the text calls 1; `values`: of all its sliders, by name; `covers`: not the
-    colours, but what they hide; `named`: textures that the text names and that do not come along, by name."""
+    colours, but what they hide; `named`: textures that the text names and that do not come along, by name;
+    `tabulated`: for how many pressures a stroke has it, which changes nothing of any one."""
 
     base: int
     text: str
@@ -49,6 +50,7 @@ class Expression:
     values: Values = ()
     covers: bool = False
     named: Named = ()
+    tabulated: int = field(default=USUAL_STAGES, compare=False)
 
     @property
     def key(self) -> tuple[object, ...]:
@@ -71,7 +73,21 @@ class Expression:
     @property
     def stages(self) -> int:
         """Gives how many textures of as many pressures are mixed where the pen's pressure counts, else 1."""
-        return STAGES if any(name == PRESSURE for name, _ in self.values) else 1
+        return self.tabulated if any(name == PRESSURE for name, _ in self.values) else 1
+
+    def under(self, pressure: float) -> tuple[tuple[float, Expression], ...]:
+        """Returns what a stroke of a pressure, 0 to 1, mixes: parts, which together are 1, and the textures."""
+        last = self.stages - 1
+        if last == 0:
+            return ((1.0, self),)
+        before = min(int(pressure * last), last - 1)
+        part = pressure * last - before
+        parts = ((1.0 - part, before), (part, before + 1))
+        return tuple((weight, self._at_pressure(k / last)) for weight, k in parts if weight > 0.0)
+
+    def _at_pressure(self, pressure: float) -> Expression:
+        values = tuple((name, pressure if name == PRESSURE else value) for name, value in self.values)
+        return replace(self, values=values)
 
     @property
     def shows_colours(self) -> bool:

@@ -47,6 +47,14 @@ def test_grey_and_what_is_clear_have_channels_of_their_own(text, channels, bits,
         assert (drawn(out)[:, 9:, 0] == 255).all()
 
 
+def test_it_draws_what_a_stroke_of_a_pressure_mixes(tmp_path):
+    out = tmp_path / "a.png"
+    words = ["texture", "expression", "--text", "pressure*pressure + 0*x", "--out", str(out), "--size", "2x2"]
+    for told, value in ((["--pressure", "0.5"], 0.25), (["--pressure", "0.5", "--stages", "2"], 0.5), ([], 1.0)):
+        assert main([*words, *told]) == 0
+        assert (drawn(out) == int(value * 255 + 0.5)).all()
+
+
 def test_it_draws_what_a_text_names(tmp_path, capsys):
     picture, text, out = tmp_path / "a.png", tmp_path / "b.txt", tmp_path / "out.png"
     Image.fromarray(np.arange(48, dtype=np.uint8).reshape(6, 8) * 5).save(picture)
@@ -65,6 +73,8 @@ def test_it_tells_its_words(capsys):
 
 
 WRONG = (
+    (["--text", "pressure", "--stages", "1"], "--stages: found 1, expected an integer from 2 to 9"),
+    (["--text", "x", "--pressure", "2"], "--pressure: found '2', expected a number from 0 to 1"),
     (["--text", '"a"()'], '--text, line 1, column 1: found "a", expected the name of a texture'),
     (["--text", '"a"()', "--texture", "a=gone.txt"], "gone.txt: No such file"),
     (["--text", '"a"()', "--texture", "a"], "--texture: found 'a', expected NAME=FILE"),

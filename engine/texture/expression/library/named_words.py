@@ -63,9 +63,7 @@ def _pictured(weaver: Weaver, term: Term, env: Env, other: Elsewhere) -> Value:
     wide = graph.most(weaver.width(env.x), weaver.width(env.y))
     if graph.value(wide) == 0.0:
         wide = graph.constant(weaver.setting.width)
-    if (
-        not other.is_mean
-    ):  # its levels are as they are: what is seen is so wide as a pixel, however many samples that has
+    if not other.is_mean:  # its levels are as they are: seen by whole pixels, however many samples these have
         wide = graph.times(wide, float(weaver.setting.side))
     elif not _on_pixels(graph, env, (graph.value(wide) or 0.0) * other.unit):
         weaver.errors.flat(_DEVIATION)

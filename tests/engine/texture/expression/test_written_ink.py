@@ -142,7 +142,11 @@ def test_what_looks_at_the_pressure_has_stages():
     assert table.from_key(list(made.key), {}) == made
     assert expression({"text": text}, 0).appearance(0, Rect(0, 0, 1, 1)).item() == 1.0
     assert expression({"text": "x"}, 0).stages == 1
-    for wrong in ({"weight": 2}, {"weight": "hard"}, {"values": {"pressure": 0.5}}):
+    assert expression({"text": "x", "stages": 9}, 0).stages == 1
+    few = expression({"text": text, "stages": 3}, 0)
+    assert (few.stages, few.key) == (3, expression({"text": text}, 0).key)
+    assert [(part, dict(one.values)["pressure"]) for part, one in few.under(0.75)] == [(0.5, 0.5), (0.5, 1.0)]
+    for wrong in ({"weight": 2}, {"weight": "hard"}, {"values": {"pressure": 0.5}}, {"stages": 1}, {"stages": 2.5}):
         with pytest.raises(FieldError):
             expression({"text": text, **wrong}, 0)
 
@@ -157,6 +161,8 @@ def test_a_stroke_follows_the_pressure():
     np.testing.assert_allclose(colour[1], 0, atol=1e-5)
     np.testing.assert_allclose(colour[2], pressure, atol=1e-5)
     assert len(inks) == 5 == len(amplitudes) // 3
+    few = from_json({"ink": [{"texture": "t", "amount": 1, "stages": 2}]})
+    assert len(resolve(few, {"t": texture}, 0, 0).under(TileKey(0, 0, 0), pressure)[2]) == 2
     told = from_json({"ink": [{"texture": "t", "amount": 1, "weight": 0.5}]})
     assert not resolve(told, {"t": texture}, 0, 0).swayed
 
