@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 PYRAMIDS = ("steerable", "laplacian")
 HOWS = ("palette", "bands", "average")
-STRUCTURES = ("none", "statistics", "coarse", "objects", "full")
+STRUCTURES = ("none", "statistics", "coarse", "objects", "full", "pieces")
 OF_NONE = ("--pyramid", "--levels", "--orientations", "--iterations", "--exact", "--start")  # options
 MOST = 8  # threads at most
 _BYTES = 230  # for each pixel and channel of a texture with a structure
@@ -164,7 +164,8 @@ def _parser(name: str) -> Parser:
         choices=STRUCTURES,
         default="none",
         help="how much of the example's structure is kept: none (histograms alone), statistics (nothing is copied), "
-        "coarse, objects, full (its layout, to a quarter, to half and to all of the size); default none",
+        "coarse, objects, full (its layout, to a quarter, to half and to all of the size), pieces (large, cut where "
+        "they agree); default none",
     )
     parser.add_argument("--pyramid", choices=PYRAMIDS, default="steerable", help="default steerable")
     parser.add_argument("--exact", action="store_true", help="match histograms by rank, not by tables of 256 bins")

@@ -17,7 +17,7 @@ from engine.painting.commands import DefineTexture
 from engine.studio.requests import Do
 from engine.studio.textures.texture_requests import DoctorAsk
 
-_STRUCTURES = {"histograms": "none", "statistics": "statistics", "objects": "objects", "full": "full"}
+_STRUCTURES = {"histograms": "none"} | {name: name for name in ("statistics", "objects", "full", "pieces")}
 
 
 def ask_doctor(desk: Desk, path: Path) -> None:

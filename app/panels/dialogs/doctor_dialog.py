@@ -21,6 +21,7 @@ _WAYS = {
     "statistics": ("Statistics", "Edges and lines go on; nothing is copied"),
     "objects": ("Objects", "Stones, leaves and bricks stay what they are"),
     "full": ("Full layout", "As near to the example as can be; small pieces are copied"),
+    "pieces": ("Pieces", "Large pieces of the example that agree at their edges: bricks, cloth, leaves"),
     "grown": ("Grown example", "More of the same while you paint, with its own rim"),
 }
 _NAMED = {**{way: title for way, (title, _) in _WAYS.items()}, "paper": "Paper", "colour": "A plain colour"}

@@ -22,6 +22,7 @@ _STRUCTURES = (
     ("coarse", "Coarse", "Large shapes lie as in the example, the rest is new: walls, bricks"),
     ("objects", "Objects", "Stones, leaves and bricks stay what they are; hardly anything is copied"),
     ("full", "Full", "As near to the example as can be; small pieces of it are copied"),
+    ("pieces", "Pieces", "Large pieces of the example that agree at their edges: bricks, cloth, leaves"),
 )
 _AXES = (
     ("Light", "The first axis of the example's colours, along which they differ most"),

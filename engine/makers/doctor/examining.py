@@ -19,6 +19,7 @@ _LOOKED_AT = 256  # pixels along the sides of what is looked at, and of what is 
 _LEAST = 16  # pixels along them
 _OBJECTS, _GRAIN = 0.12, 0.04  # of `Grain.structure`: above it are things, below it is even grain
 _NEAR = 1.25  # times as far off as another: as good
+_WHOLE = 1.6  # times as far off: as good, where joints of bricks or threads go on
 _CLEAR, _RIMMED = 0.5, 0.02  # alpha below which a pixel is outside; the part of them that makes a rim
 _COPIES = 0.1  # of the patches: so many are seen
 
@@ -133,6 +134,8 @@ def advised(report: Report, trials: Mapping[str, Trial], flat: bool) -> tuple[st
         )
     if "quasi-periodic" in kinds:
         best = min(("objects", "full", "grown"), key=lambda name: _apart(likenesses, name))
+        if _apart(likenesses, "pieces") < _WHOLE * _apart(likenesses, best):
+            best = "pieces"
         length = grain.periods[0].length
         return (
             best,
@@ -170,4 +173,9 @@ def _apart(likenesses: Mapping[str, Likeness], name: str) -> float:
 
 
 def _named(way: str) -> str:
-    return {"full": "the full layout", "objects": "objects", "grown": "growing it as an example"}[way]
+    return {
+        "full": "the full layout",
+        "objects": "objects",
+        "pieces": "a layout of large pieces",
+        "grown": "growing it as an example",
+    }[way]

@@ -100,8 +100,10 @@ def _grown(example: np.ndarray, size: _Size, seed: int) -> Iterator[np.ndarray |
 
 
 def _of_structure(structure: str, make: _Make) -> MakerTried:
-    titles = {NO_STRUCTURE: "Histograms", "statistics": "Statistics", "objects": "Objects", "full": "Full layout"}
-    return MakerTried(titles[structure], "match", MappingProxyType({"structure": structure}), make)
+    titles = {NO_STRUCTURE: "Histograms", "full": "Full layout"}
+    return MakerTried(
+        titles.get(structure, structure.capitalize()), "match", MappingProxyType({"structure": structure}), make
+    )
 
 
 _NOTHING: MappingProxyType[str, str] = MappingProxyType({})
@@ -112,5 +114,6 @@ TRIED = {
     "statistics": _of_structure("statistics", _structured("statistics")),
     "objects": _of_structure("objects", _structured("objects")),
     "full": _of_structure("full", _structured("full")),
+    "pieces": _of_structure("pieces", _structured("pieces")),
     "grown": MakerTried("Grown example", "example", _NOTHING, _grown),
 }

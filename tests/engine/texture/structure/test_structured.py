@@ -8,6 +8,7 @@ import pytest
 from engine.numeric.address import Rect
 from engine.texture import matching
 from engine.texture.structure.made import STRUCTURES, structured
+from engine.texture.structure.pieced import pieced
 from engine.texture.structure.statistics import bands_measured, joint_between, joint_of, unlike
 from engine.texture.structure.synthesis import colours_of
 from engine.texture.table import instance
@@ -51,7 +52,8 @@ def test_joint_statistics_are_the_examples_where_histograms_leave_them(stones, s
     pattern = matching.analysed(picture, matching.Shape("steerable", 4, 4).within(SIZE))
     histograms = matching.matched_colours(pattern, matching.matched(pattern, matching.noise(1, SIZE, 1)))
     texture = made(picture, structure, wanted=wanted)
-    assert apart(picture, texture) < 0.35 * apart(picture, histograms)
+    share = 0.45 if structure == "pieces" else 0.35  # cut where they agree, few large ones are not all of the example
+    assert apart(picture, texture) < share * apart(picture, histograms)
     assert np.abs(np.sort(texture, axis=None) - np.sort(picture, axis=None)).mean() < 0.01
 
 
@@ -77,6 +79,7 @@ BITS = {
     "coarse": "a5321a4107bd",
     "objects": "fab3411d8bbf",
     "full": "55f5a1079362",
+    "pieces": "444734d40c8d",
 }
 ODD = {
     "one colour": (np.full((3, 20, 20), 0.3, np.float32), (30, 21)),
@@ -88,7 +91,7 @@ ODD = {
 }
 
 
-@pytest.mark.parametrize("structure", ["statistics", "objects"])
+@pytest.mark.parametrize("structure", ["statistics", "objects", "pieces"])
 @pytest.mark.parametrize("name", ODD)
 def test_any_picture_gives_a_texture_of_any_size(name, structure):
     picture, size = ODD[name]
@@ -96,6 +99,19 @@ def test_any_picture_gives_a_texture_of_any_size(name, structure):
     assert texture.shape == (len(picture), *size)
     assert np.isfinite(texture).all()
     assert abs(texture.mean() - picture.mean()) < 0.2
+
+
+def test_pieces_of_a_wall_make_a_wall():
+    """Every row of mortar goes on, and every brick is whole."""
+    y, x = np.mgrid[:66, :70]
+    mortar = (y % 12 < 2) | ((x + 8 * (y // 12 % 2)) % 16 < 2)
+    wall = np.where(mortar, np.float32(0.9), np.float32(0.4) + 0.05 * (y // 12 % 2))[None].astype(np.float32)
+    *_, (done, texture) = pieced(wall, (72, 64), 3)
+    assert done == 1.0
+    assert texture.shape == (1, 72, 64)
+    rows, columns = (np.arange(n) for n in texture.shape[1:])
+    walls = (wall[:, (rows[:, None] + v) % 48, (columns + u) % 48] for v in range(24) for u in range(16))
+    assert any(np.array_equal(texture, one) for one in walls)
 
 
 def test_statistics_between_two_begin_with_the_first_and_end_with_the_other():
