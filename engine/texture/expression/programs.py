@@ -29,7 +29,8 @@ class Program:
 
     Where `finer` is told, the last plane is the error of a pixel, and finer(side) the program for those pixels that
     take more samples, `most` along each at most; where it `compares`, all take four, and those more in which these are
-    far from one.  `asks`: what it asks of textures of other makers, each with the program of the places.
+    far from one.  `asks`: what it asks of textures of other makers, each with the program of the places.  `fit`: what
+    pixels are multiplied by, and what is added, (2, channels, 1), where there is that.
     """
 
     steps: np.ndarray
@@ -46,6 +47,7 @@ class Program:
     compares: bool = False
     most: int = JUMP_SIDE
     asks: tuple[tuple[AskedTexture, Program], ...] = ()
+    fit: np.ndarray | None = None
 
     @property
     def channels(self) -> int:
@@ -106,6 +108,7 @@ def _answers(asks: tuple[tuple[AskedTexture, Program], ...], xs: np.ndarray, ys:
 
 _AT_ONCE = 1 << 12  # pixels, where there are pictures for each of their samples
 _COLUMNS, _COUNT = 12, 8
+_BOUNDS = np.float32(-1.0), np.float32(2.0)  # as the machine has them
 _NOTHING = np.zeros((1, 1, 1))
 
 
@@ -236,33 +239,57 @@ def make_kernels() -> None:
 
 def draw_program(made: Program, rect: Rect, period: Fraction) -> np.ndarray:
     """Returns a program's means over the pixels of a rectangle: float32 (channels, h, w); `period`: pixels."""
-    out = made.over(*_samples(rect, made.side, period), max(rect.width, 1))
-    if made.finer is not None:
-        error, out = out[-1], out[:-1]
-        if made.compares:
-            plain, out = out, made.finer(POINT_SIDE).over(*_samples(rect, POINT_SIDE, period), max(rect.width, 1))
-            error[far_apart(plain, out)] = 1.0
-        few, many = (error >= np.float32(least) for least in (FEW_FROM, MANY_FROM))
-        if made.side > 1 or made.compares:
-            few = many
-        for side, which in ((POINT_SIDE, np.flatnonzero(few & ~many)), (JUMP_SIDE, np.flatnonzero(many))):
-            if which.size:
-                out[:, which] = _refined(made, min(side, made.most), rect, period, which)
-    return out.reshape(-1, rect.height, rect.width)
+    rows, columns = np.divmod(np.arange(rect.area), max(rect.width, 1))
+
+    def samples(side: int, which: np.ndarray | None = None) -> _Samples:
+        xs = sample_places(rect.x0, rect.width, side, period).reshape(rect.width, side)
+        ys = sample_places(rect.y0, rect.height, side, period).reshape(rect.height, side)
+        some = (columns, rows) if which is None else (columns[which], rows[which])
+        return _meshed(xs[some[0]], ys[some[1]])
+
+    return _fitted(made, _drawn(made, samples, max(rect.width, 1))).reshape(-1, rect.height, rect.width)
 
 
-def _refined(made: Program, side: int, rect: Rect, period: Fraction, which: np.ndarray) -> np.ndarray:
-    """Returns some pixels of a rectangle with more samples."""
-    assert made.finer is not None
-    return made.finer(side).over(*_samples(rect, side, period, which), which.size)
+def draw_pixels(made: Program, columns: np.ndarray, rows: np.ndarray, period: Fraction) -> np.ndarray:
+    """Returns a program's means over some pixels, not fitted: float32 (channels, pixels)."""
+
+    def samples(side: int, which: np.ndarray | None = None) -> _Samples:
+        along = (np.arange(side) + 0.5) / side
+        some = (columns, rows) if which is None else (columns[which], rows[which])
+        xs, ys = ((one[:, None] + along) / float(period) for one in some)
+        return _meshed(xs, ys)
+
+    return _drawn(made, samples, columns.size)
 
 
-def _samples(rect: Rect, side: int, period: Fraction, which: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the places of the samples of a rectangle's pixels, or some of them, row by row: each float64 (side side,
-    pixels)."""
-    xs = sample_places(rect.x0, rect.width, side, period).reshape(rect.width, side)
-    ys = sample_places(rect.y0, rect.height, side, period).reshape(rect.height, side)
-    rows, columns = np.divmod(np.arange(rect.area) if which is None else which, max(rect.width, 1))
+_Samples = tuple[np.ndarray, np.ndarray]
+
+
+def _meshed(xs: np.ndarray, ys: np.ndarray) -> _Samples:
+    """Returns the places of the samples of pixels: each float64 (side side, pixels); `xs`, `ys`: (pixels, side)."""
+    side = xs.shape[1]
     right, below = np.tile(np.arange(side), side), np.repeat(np.arange(side), side)
-    found = xs[columns[None, :], right[:, None]], ys[rows[None, :], below[:, None]]
-    return np.ascontiguousarray(found[0]), np.ascontiguousarray(found[1])
+    return np.ascontiguousarray(xs.T[right]), np.ascontiguousarray(ys.T[below])
+
+
+def _drawn(made: Program, samples: Callable[..., _Samples], row: int) -> np.ndarray:
+    """Returns the means over pixels, each with as many samples as it takes; `row`: pixels in a row."""
+    out = made.over(*samples(made.side), row)
+    if made.finer is None:
+        return out
+    error, out = out[-1], out[:-1]
+    if made.compares:
+        plain, out = out, made.finer(POINT_SIDE).over(*samples(POINT_SIDE), row)
+        error[far_apart(plain, out)] = 1.0
+    few, many = (error >= np.float32(least) for least in (FEW_FROM, MANY_FROM))
+    if made.side > 1 or made.compares:
+        few = many
+    for side, which in ((POINT_SIDE, np.flatnonzero(few & ~many)), (JUMP_SIDE, np.flatnonzero(many))):
+        if which.size:
+            side = min(side, made.most)
+            out[:, which] = made.finer(side).over(*samples(side, which), which.size)
+    return out
+
+
+def _fitted(made: Program, out: np.ndarray) -> np.ndarray:
+    return out if made.fit is None else np.clip(out * made.fit[0] + made.fit[1], *_BOUNDS)

@@ -19,8 +19,9 @@ from engine.texture.expression.kept_squares import from_squares
 from engine.texture.expression.language import read, weave
 from engine.texture.expression.naming.elsewhere import Elsewhere, unit_of
 from engine.texture.expression.placing.placed_scene import drawn_plainly
-from engine.texture.expression.programs import Program, program
+from engine.texture.expression.programs import Program, draw_pixels, program
 from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
+from engine.texture.expression.sampling.far_fit import FITTED_BELOW, fit_to_near, near_level, shown_at_places
 from engine.texture.expression.sampling.sample_trial import measured_side, samples_of
 from engine.texture.expression.weaving import Setting, Woven
 from engine.texture.expression.written import PRESSURE
@@ -31,9 +32,9 @@ FINEST_PIXEL = 34  # a pixel of 2^-34 periods is the last that differs from its 
 _COARSEST = -40  # levels above where the period is told
 _MEMO = 256
 
-
 Values = tuple[tuple[str, float | str], ...]
 Named = tuple[tuple[str, Instance], ...]
+_About = tuple[str, Values, Named, int, int, float, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +176,17 @@ def woven_program(
 ) -> Program:
     """Returns the program of a line of a text: what it is for the samples that it asks for."""
     about = (text, values, named, seed, finer, period, line)
-    woven, made, many = woven_line(*about), partial(_sampled, *about), pixels(period, max(finer, _COARSEST))
+    woven, many = woven_line(*about), pixels(period, max(finer, _COARSEST))
+    found = _enough(woven, about, many)
+    if woven.whole is not None or named or many >= FITTED_BELOW or not (woven.rough or woven.jumps):
+        return found
+    far = shown_at_places(lambda columns, rows: draw_pixels(found, columns, rows, many), many)
+    return replace(found, fit=fit_to_near(far, _from_near(text, values, seed, period, line)))
+
+
+def _enough(woven: Woven, about: _About, many: Fraction) -> Program:
+    """Returns the program with as many samples as are enough."""
+    made = partial(_sampled, *about)
     if woven.whole is not None:
         return made(POINT_SIDE if woven.rough or woven.jumps else 1)
     side = measured_side(made, many) if woven.rough else 1
@@ -189,6 +200,14 @@ def woven_program(
     if often and side == POINT_SIDE:
         return made(side)
     return replace(found, cost=woven.cost * samples, most=POINT_SIDE if often and not compares else JUMP_SIDE)
+
+
+@lru_cache(16)
+def _from_near(text: str, values: Values, seed: int, period: float, line: int) -> np.ndarray:
+    """Returns what a line shows from near, at some places."""
+    finer = near_level(period)
+    made, many = woven_program(text, values, (), seed, finer, period, line), pixels(period, finer)
+    return shown_at_places(lambda columns, rows: draw_pixels(made, columns, rows, many), many)
 
 
 @lru_cache(_MEMO)

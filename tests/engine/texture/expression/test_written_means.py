@@ -89,6 +89,17 @@ def test_what_has_none_is_close_to_it(text):
     assert max(found[level] for level in LEVELS if level >= -3) <= CLOSE[text], found
 
 
+def test_from_far_the_mean_over_the_repeat_stands():
+    """What bends within each repeat, of which a pixel holds many, and what is the same far and near."""
+    for text in ("pow(0.5 + 0.5*sin(80*x), 4)*smoothstep(0.3, 0.7, noise(x*30, y*30))", "noise(x*40, y*40)*fract(x*9)"):
+        made = expression({"text": text}, -20)
+        near = made.means(0, Rect.at(0, 0, 512, 512)).mean()
+        for level in (-4, -6, -9):
+            assert abs(made.means(level, Rect.at(-40, 9, 32, 32)).mean() - near) * 127.5 < 5.0, (text, level)
+    made = expression({"text": "fill(circle(x - 1, y - 1, 0.4))"}, -20)
+    assert made.at(-4).fit is None or (made.at(-4).fit[0] == 1.0).all()
+
+
 def test_few_samples_are_taken_where_few_are_enough():
     def samples(text, number=-1):
         made = expression({"text": text}, -20)

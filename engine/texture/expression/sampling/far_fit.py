@@ -1,0 +1,71 @@
+"""Written textures from far: where a pixel holds more than a part of a repeat, no few samples tell its mean, as what
+they are of is grey already, and what is not linear of a mean is not the mean of that.
+
+There the pixels of a level are fitted to what is seen from nearer, at places that are the same for every text: a factor
+and a summand for each channel, by least squares.  The mean over the texture so stands at every level, and what comes of
+samples that meet its repeats now so, now so, shrinks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+FITTED_BELOW, FITTED_TO = 16, 64  # pixels a period: below which pixels are fitted, and from which on to what
+_PLACES, _ACROSS = 2048, 16.0  # how many, within how many periods each way
+_UNIT = 1 << 14
+_TURNS = (0.7548776662466927, 0.5698402909980532)  # as in `sample_trial`
+_LEAST = 4.0 / 255.0 / 255.0  # variance of what is seen from far: of less it cannot be told whether it is there
+_STEEPEST, _SLIGHTLY, _SURE = 8.0, 0.15, 4.0  # a factor; how far from 1 it must be, and in standard errors
+_AtPixels = Callable[[np.ndarray, np.ndarray], np.ndarray]  # what pixels show, by their columns and rows
+
+
+def near_level(period: float) -> int:
+    """Returns how many levels finer than where the period is told is what others are fitted to."""
+    part, level = math.frexp(FITTED_TO / period)
+    return level - (part == 0.5)
+
+
+def shown_at_places(shown: _AtPixels, period: Fraction) -> np.ndarray:
+    """Returns what the pixels at all places show: whole numbers, int64 (channels, places)."""
+    found: np.ndarray = np.rint(shown(*_pixels(float(period))).astype(np.float64) * _UNIT).astype(np.int64)
+    return found
+
+
+def fit_to_near(far: np.ndarray, near: np.ndarray) -> np.ndarray:
+    """Returns by what pixels that show `far` are multiplied, and what is then added, so that they are about `near`:
+    float32 (2, channels, 1).  Sums are of whole numbers, so that they are the same on every machine."""
+    out = np.empty((2, len(far), 1), np.float32)
+    for n, (x, y) in enumerate(zip(far, near, strict=True)):
+        out[:, n, 0] = _line(x, y)
+    return out
+
+
+def _line(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+    """Returns the factor and the summand of one channel: 1 and 0 where what is found may be chance."""
+    sums = [int(a.sum()) for a in (x, y)]
+    xx, xy, yy = (
+        (int((a * b).sum()) * _PLACES - sums[n] * sums[m]) / (_PLACES * _UNIT) ** 2
+        for a, b, n, m in ((x, x, 0, 0), (x, y, 0, 1), (y, y, 1, 1))
+    )
+    far, near = (one / (_PLACES * _UNIT) for one in sums)
+    if xx > _LEAST:
+        slope = min(max(xy / xx, 0.0), _STEEPEST)
+        error = math.sqrt(max(yy - xy * xy / xx, 0.0) / xx / _PLACES)
+        if abs(1.0 - slope) > max(_SURE * error, _SLIGHTLY):
+            return slope, near - slope * far
+    apart = near - far
+    sure = abs(apart) > _SURE * math.sqrt(max(xx + yy - 2.0 * xy, 0.0) / _PLACES)
+    return 1.0, apart if sure else 0.0
+
+
+@lru_cache(64)
+def _pixels(period: float) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the columns and the rows of the pixels at all places: int64 (places,), twice."""
+    places = (np.arange(1, _PLACES + 1) * turn % 1.0 * _ACROSS for turn in _TURNS)
+    columns, rows = (np.floor(place * period).astype(np.int64) for place in places)
+    return columns, rows
