@@ -15,7 +15,7 @@ from engine.numeric.address import TILE, Rect, TileKey
 
 _FROM = 3  # levels finer than the finest from which on it is worth it
 _AROUND = 3  # pixels of that level that those below can see
-_WIDEST = TILE * 3 // 2  # pixels of that level along a side, of what is looked at
+_WIDEST = TILE * 9 // 4  # pixels of that level along a side, of what is looked at
 _KEPT = 1 << 11  # tiles
 
 
@@ -50,9 +50,9 @@ class Unpainted:
 
         def spared(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
             finest = None if layer.id == painted else _finest_of(layer)
-            if finest is None or level <= finest:
+            if finest is None or level < finest:
                 return read(layer, level, rect)
-            near = rect.zoomed(finest - level).grown(_AROUND)
+            near = rect if level == finest else rect.zoomed(finest - level).grown(_AROUND)
             return None if self._nothing(layer, near) else read(layer, level, rect)
 
         return spared
