@@ -23,12 +23,14 @@ Read = Callable[[Rect], Planes]  # the old values of a rectangle of the stroke's
 
 @dataclass(frozen=True, slots=True)
 class Looks:
-    """What a stroke looks at besides the pixels under it: the pen's `pressure` at each; another `layer`, by name.
-    `whole` names what has to see the whole stroke before it knows any pixel, "" for nothing of the kind."""
+    """What a stroke looks at besides the pixels under it: the pen's `pressure` at each; another `layer`, by name;
+    `rim`: so many pixels within its own rim, 0 for nothing of that.  `whole` names what has to see the whole stroke
+    before it knows any pixel, "" for nothing of the kind."""
 
     pressure: bool = False
     layer: str | None = None
     whole: str = ""
+    rim: float = 0.0
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -38,7 +40,7 @@ class Scene:
     `source`: reads the layer that the op names, at the stroke's level; `origin`: the stroke's, in pixels of its level;
     `pressure`: the stroke's coverage laid with the pen's pressure as opacity: the strongest that went over a pixel.
     `start`: the pixel where the stroke begins; `seed`: of what is random; `memo`: what was learnt there, kept for the
-    whole stroke; `arithmetic`: the painting's.
+    whole stroke; `arithmetic`: the painting's; `covered`: the stroke's coverage before anything thins it.
     """
 
     source: Read | None = None
@@ -48,6 +50,7 @@ class Scene:
     seed: int = 0
     memo: dict[str, Predictor | None] = field(default_factory=dict)
     arithmetic: int = LIBRARY
+    covered: Coverage | None = None
 
 
 @dataclass(frozen=True, eq=False)

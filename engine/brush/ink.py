@@ -22,7 +22,7 @@ from engine.brush import sway
 from engine.brush.checks import BrushError
 from engine.brush.parts import Component, Surface, Tip
 from engine.brush.settings import Brush
-from engine.brush.sway import Hat, Swayed
+from engine.brush.sway import Swayed
 from engine.numeric.address import Rect, TileKey
 from engine.texture.expression.written_ink import Expression
 from engine.texture.gradient import Gradient
@@ -72,16 +72,19 @@ class Ink:
         """Red, green and blue amplitude of every instance in turn: float32 (3n,)."""
         return np.concatenate([part.amplitude for part in self.loaded]) if self.loaded else np.zeros(0, np.float32)
 
-    def under(self, key: TileKey, pressure: np.ndarray) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
-        """Under the pressure at each pixel of a tile, float32 (128, 128): the ink's colour, float32 (3, 128, 128), the
-        amplitudes (3n, 128, 128) of those n instances that have any there, and these."""
+    def under(
+        self, key: TileKey, pressure: np.ndarray, rim: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
+        """Under the pressure at each pixel of a tile, and so far from the stroke's rim, float32 (128, 128), None for 1:
+        the ink's colour, float32 (3, 128, 128), the amplitudes (3n, 128, 128) of those n instances that have any
+        there, and these."""
         colour = np.broadcast_to(self.base[:, None, None], (3, *pressure.shape)).copy()
         planes, inks = [], []
         for part in self.loaded:
             amplitude = np.zeros((3, *pressure.shape), np.float32) + part.amplitude[:, None, None]
             for one in self.swayed:
                 if one.instance == part.instance:
-                    amplitude += one.amplitude[:, None, None] * one.hat.of(pressure)
+                    amplitude += one.amplitude[:, None, None] * one.part(pressure, rim)
             if amplitude.any():
                 colour += amplitude * part.instance.appearance(key.level, key.rect)[:3]
                 planes.append(amplitude)
@@ -125,24 +128,22 @@ def resolve(
         curve = sway.curve_of_pen(own, component, curve)
         made = shaped(own, component.shaping, brush.shaping)
         amplitude, shift = _mixed(own, component, under)
-        stages = getattr(own, "stages", 1)
         if own.key[0] == "white":  # S = 1: plain colour, no planes
             base += amplitude * (made.appearance(level, _PIXEL).item() + 1.0)
             continue
         base += shift
-        if curve is None or stages == 1:
+        mixed = list(sway.stages_of(own, component, curve))
+        if not mixed:
             found[made] += amplitude
             hidden = _cover(own)
             if hidden is not None:
                 found[hidden] -= component.amount * under
-            continue
-        for k in range(stages):
-            part = named(sway.at_weight(component, k / (stages - 1)), textures, level, seed, place)
-            made = shaped(part, component.shaping, brush.shaping)
-            hat, hidden = Hat(curve, k, stages), _cover(part)
-            swayed.append(Swayed(made, amplitude.astype(np.float32), hat))
+        for told, *hats in mixed:
+            part = named(sway.told_so(component, told), textures, level, seed, place)
+            made, hidden = shaped(part, component.shaping, brush.shaping), _cover(part)
+            swayed.append(Swayed(made, amplitude.astype(np.float32), *hats))
             if hidden is not None and under.any():
-                swayed.append(Swayed(hidden, (-component.amount * under).astype(np.float32), hat))
+                swayed.append(Swayed(hidden, (-component.amount * under).astype(np.float32), *hats))
     return Ink(base.astype(np.float32), _loaded(found, swayed), tuple(swayed))
 
 

@@ -23,7 +23,7 @@ LUMA = np.array(tones.LUMA, np.float32)
 def mixture(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink:
     """Returns the brush's textures mixed to one number, sum a_i s_i: the ink that they would be in white over black;
     those that go with the pressure are as at full pressure."""
-    ink = tuple(replace(sway.still(part), colour="#ffffff") for part in brush.ink)
+    ink = tuple(replace(sway.still(part, textures), colour="#ffffff") for part in brush.ink)
     return resolve(replace(brush, colour="#000000", ink=ink), textures, level, seed)
 
 

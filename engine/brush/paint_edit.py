@@ -14,6 +14,7 @@ from engine.brush import coat
 from engine.brush.covered import Covered, Looks
 from engine.brush.felt import tints_of
 from engine.brush.ink import Ink, Texture, resolve
+from engine.brush.rim import rim_of_ink
 from engine.brush.settings import Brush
 from engine.brush.stamp import Stamp
 from engine.brush.tinted_ink import TintedInk, tinted_ink
@@ -39,8 +40,10 @@ class Painting(Covered):
 
     @staticmethod
     def looks(brush: Brush, ink: Ink | None) -> Looks:
-        """At the pressure, where the ink goes with it."""
-        return Looks(pressure=ink is not None and bool(ink.swayed))
+        """At the pressure, and at the rim, where the ink goes with it."""
+        swayed = () if ink is None else ink.swayed
+        rim = rim_of_ink(brush).width if any(one.rim is not None for one in swayed) else 0.0
+        return Looks(pressure=any(one.hat is not None for one in swayed), rim=rim)
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
         """Returns A and B of a tile, as `Edit.stamp`; None where nothing changes."""
@@ -93,7 +96,11 @@ class Painting(Covered):
         assert self.ink is not None
         felt = self.scene.pressure
         pressure = felt.on_grid(key) if felt is not None else np.ones((TILE, TILE), np.float32)
-        return self._varied(keep, old, self.ink.under(key, pressure))
+        rim, covered = None, self.scene.covered
+        if covered is not None:
+            within = rim_of_ink(self.brush)
+            rim = within.depths(within.around(covered.tiles, key))
+        return self._varied(keep, old, self.ink.under(key, pressure, rim))
 
     def _varied(
         self, keep: np.ndarray, old: Planes, under: tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]

@@ -21,6 +21,7 @@ from engine.numeric.shaping import look_up, table
 
 CAP = 64  # px: wider rims are as wide as this
 INSIDE = 1.0 / 16.0  # of the brush's opacity
+_LEAST_INSIDE = 2.0**-12
 
 _ZERO = np.float32(0.0)
 _ONE = np.float32(1.0)
@@ -47,7 +48,7 @@ class Rim:
             return None
         colour = None if edge.colour is None else np.array(edge.rgb, np.float32)
         width = min(max(edge.width * brush.radius, 1.0), float(CAP))
-        return cls(table(edge.curve, "edge"), width, edge.amount, max(INSIDE * brush.opacity, 2.0**-12), colour)
+        return cls(table(edge.curve, "edge"), width, edge.amount, max(INSIDE * brush.opacity, _LEAST_INSIDE), colour)
 
     @property
     def reach(self) -> int:
@@ -96,6 +97,12 @@ class Rim:
         t = np.maximum(np.float32(1.0) - np.float32(2.0) * depths, np.float32(0.0))
         out: np.ndarray = np.float32(self.amount) * t * t * (np.float32(3.0) - np.float32(2.0) * t)
         return out
+
+
+def rim_of_ink(brush: Brush) -> Rim:
+    """Returns the rim from which an ink counts how far within its stroke it lies: as wide as the brush's radius."""
+    width = min(max(brush.radius, 1.0), float(CAP))
+    return Rim(table("identity"), width, 1.0, max(INSIDE * brush.opacity, _LEAST_INSIDE))
 
 
 @kernel

@@ -9,6 +9,7 @@ pressure changes one becomes the other.  The pressure at a pixel is the stronges
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,6 +19,7 @@ from engine.brush import checks
 from engine.brush.parts import Component
 from engine.texture.expression.written_ink import Expression
 from engine.texture.record import Instance
+from engine.texture.table import EXPRESSION
 
 _STRAIGHT = ((0.0, 0.0), (1.0, 1.0))
 
@@ -40,11 +42,37 @@ class Hat:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Swayed:
-    """An instance of the ink whose amplitude, float32 (3,), goes with the pressure."""
+    """An instance of the ink whose amplitude, float32 (3,), goes with the pressure, or with the distance from the
+    stroke's rim."""
 
     instance: Instance
     amplitude: np.ndarray
-    hat: Hat
+    hat: Hat | None = None
+    rim: Hat | None = None
+
+    def part(self, pressure: np.ndarray, rim: np.ndarray | None) -> np.ndarray:
+        """Returns how much of it there is, of pressures and distances, 0..1: float32."""
+        found = np.ones_like(pressure) if self.hat is None else self.hat.of(pressure)
+        return found if self.rim is None or rim is None else found * self.rim.of(rim)
+
+
+def stages_of(
+    own: Instance, component: Component, curve: checks.Knots | None
+) -> Iterator[tuple[dict[str, float], Hat | None, Hat | None]]:
+    """Yields for each of the textures that a stroke mixes what a component tells to be it, and where it is; nothing
+    where there is one for all."""
+    pressures = getattr(own, "stages", 1) if curve is not None else 1
+    rims = 1 if "rim" in component.parameters else getattr(own, "rims", 1)
+    if pressures == rims == 1:
+        return
+    for k in range(pressures):
+        told = {"weight": k / (pressures - 1)} if pressures > 1 else {}
+        hat = Hat(curve, k, pressures) if curve is not None and pressures > 1 else None
+        for n in range(rims):
+            if rims == 1:
+                yield told, hat, None
+            else:
+                yield {**told, "rim": n / (rims - 1)}, hat, Hat(_STRAIGHT, n, rims)
 
 
 def curve_of(component: Component, place: str) -> checks.Knots | None:
@@ -68,7 +96,15 @@ def at_weight(component: Component, weight: float) -> Component:
     return replace(component, parameters=component.parameters.set("weight", weight))
 
 
-def still(component: Component) -> Component:
-    """Returns a component whose weight goes with the pressure as it is at full pressure."""
+def told_so(component: Component, told: Mapping[str, float]) -> Component:
+    """Gives a component with other parameters."""
+    return replace(component, parameters=component.parameters.update(told))
+
+
+def still(component: Component, textures: Mapping[str, object]) -> Component:
+    """Returns a component, whose texture is one of these, as it is at full pressure and far within its stroke."""
     curve = curve_of(component, "weight")
-    return component if curve is None else at_weight(component, curve[-1][1])
+    if curve is not None:
+        return at_weight(component, curve[-1][1])
+    written = getattr(textures.get(component.texture), "kind", "") == EXPRESSION
+    return told_so(component, {"weight": 1.0, "rim": 1.0, **component.parameters}) if written else component

@@ -132,7 +132,7 @@ def _going_on(inks: tuple[Instance, ...], places: np.ndarray | None) -> tuple[In
 
 def tinted_ink(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> TintedInk:
     """Returns the ink of a brush, as `ink.resolve`; what goes with the pressure is as at full pressure."""
-    ink = tuple(map(sway.still, brush.ink))
+    ink = tuple(sway.still(component, textures) for component in brush.ink)
     whole = resolve(replace(brush, ink=ink), textures, level, seed)
     parts = []
     for component in ink:

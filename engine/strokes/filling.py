@@ -190,7 +190,8 @@ class Pouring:
         if looks.layer is not None:
             source = reader(painting.root, looks.layer, coverage.level, self._cache)
         corner, pressure = (rect.x0, rect.y0), coverage if looks.pressure else None
-        return Scene(source, corner, pressure, corner, painting.seed, {}, painting.arithmetic)
+        within = coverage if looks.rim else None
+        return Scene(source, corner, pressure, corner, painting.seed, {}, painting.arithmetic, within)
 
 
 def _carried(rect: Rect, mask: np.ndarray, finer: int) -> tuple[Rect, np.ndarray]:

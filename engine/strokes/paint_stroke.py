@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import partial
 
@@ -60,7 +61,8 @@ class LiveStroke(Drawn):
         looks = made.looks(brush, self._ink)
         source = None if looks.layer is None else reader(self.base.root, looks.layer, level, self.cache)
         self._scenery = Scenery(looks, brush, (level, self.origin), own, source, self.copies, self.chance)
-        self._relief = relief.resolve(brush, textures, level, (own, self.before.seed))
+        self._relief, self._rim = relief.resolve(brush, textures, level, (own, self.before.seed)), looks.rim
+        self._reach = max(self._relief.reach, math.ceil(looks.rim))
         self._thinning: Thinning = self._relief if self.limit is None else self.limit.after(self._relief)
         self._edit: Edit | None = None
         self._plan, self._heap_edits = heap_plan(brush, self.layer), NO_EDITS
@@ -103,11 +105,11 @@ class LiveStroke(Drawn):
             for part in copying.copied(dabs, self.copies, self.brush.shape.bristles or 1):
                 touched |= self._mask.paint(part)
             dirty = tile_bounds(touched).union(stood)
-            dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
+            dirty = dirty if dirty.empty else dirty.grown(self._reach)
             whole = self._scenery.lay(points, self._mask)
             told = self.copies.copies if isinstance(self.copies, copying.Torus) else self.copies
             self.areas = (  # of a torus, wherever in its cells: they are seen in all of them
-                copying.boxes(dabs, told, self.origin, TILE + self._relief.reach) if self.copies and whole.empty else []
+                copying.boxes(dabs, told, self.origin, TILE + self._reach) if self.copies and whole.empty else []
             )
             dirty = dirty.union(whole)
             if self.bed is not None:
@@ -184,6 +186,8 @@ class LiveStroke(Drawn):
 
     def _painted(self, covered: StrokeMask | Coverage, thinning: Thinning | None) -> Edit:
         scene = replace(self._scenery.scene, arithmetic=self.before.arithmetic)
+        if self._rim:
+            scene = replace(scene, covered=self._mask.coverage())
         locked = self.layer.alpha_locked
         read = partial(read_layer, self.layer, self.level, self.cache)  # not of `self`, which would then hold itself
         made = edits.edit(self.brush, covered, self._ink, locked, read, thinning, scene)

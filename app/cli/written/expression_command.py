@@ -67,7 +67,8 @@ def _parser() -> Parser:
     parser.add_argument("--origin", type=read_place, default=(0, 0), metavar="X,Y", help="in pixels of the level")
     parser.add_argument("--period", type=float, default=64.0, metavar="P", help="what x = 1 is, in pixels of level 0")
     parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another texture (default 0)")
-    parser.add_argument("--pressure", type=_pressure, default=1.0, metavar="P", help="of the pen, 0 to 1 (default 1)")
+    parser.add_argument("--pressure", type=_felt, default=1.0, metavar="P", help="of the pen, 0 to 1 (default 1)")
+    parser.add_argument("--rim", type=_felt, default=1.0, metavar="R", help="distance from the stroke's, 0 to 1")
     parser.add_argument("--stages", type=int, default=5, metavar="N", help="mixed pressures, 2 to 9 (default 5)")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a slider, or a colour")
     parser.add_argument(
@@ -94,7 +95,7 @@ def _level(text: str) -> int:
     return value
 
 
-def _pressure(text: str) -> float:
+def _felt(text: str) -> float:
     try:
         value = float(text)
     except ValueError:
@@ -130,7 +131,7 @@ def _made(text: _Given, given: argparse.Namespace) -> Expression:
         "values": Map(values),
         "stages": given.stages,
     }
-    told |= {"weight": given.pressure}
+    told |= {"weight": given.pressure, "rim": given.rim}
     others = textures_named(given.texture)
     try:
         if '"' not in text.text:
@@ -195,12 +196,12 @@ def _strips(made: Expression, whole: Rect, given: argparse.Namespace) -> Iterato
 
     from engine.numeric.address import Rect
 
-    channels = _channels(made, given.level)
+    channels, parts = _channels(made, given.level), made.under(given.pressure, given.rim)
     for y in range(whole.y0, whole.y1, _ROWS):
         pieces = []
         for x in range(whole.x0, whole.x1, _COLUMNS):
             rect = Rect(x, y, min(x + _COLUMNS, whole.x1), min(y + _ROWS, whole.y1))
-            mixed = [np.float32(part) * one.means(given.level, rect) for part, one in made.under(given.pressure)]
+            mixed = [np.float32(part) * one.means(given.level, rect) for part, one in parts]
             pieces.append(_pixels(np.sum(mixed, axis=0), channels, given.depth))
         yield np.ascontiguousarray(np.concatenate(pieces, axis=1))
 

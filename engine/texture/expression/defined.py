@@ -12,6 +12,8 @@ from engine.texture.expression.language import COST_MOST, read
 from engine.texture.expression.sampling.errors import POINT_SIDE
 from engine.texture.expression.written import (
     CHARACTERS_MOST,
+    FELT,
+    OWN_RIM,
     PRESSURE,
     Adjustable,
     WrittenError,
@@ -33,6 +35,7 @@ PERIOD = 64.0  # pixels, usually
 PERIOD_LEAST, PERIOD_MOST = 2.0**-10, 2.0**40
 _NEAR = 12  # levels finer: where all octaves are in sight
 _DEEPEST = 1 << 16
+_TOLD_BY = {PRESSURE: "weight", OWN_RIM: "rim"}  # members of a definition that tell one of each
 _NAMED_DEEP = 12  # texts that name textures, within one another
 
 
@@ -54,8 +57,8 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
     try:
         written = read(text)
         values = chosen_values(written, parameters.get("values", {}))
-        if written.presses:  # as one value more, which is the pen's to set
-            values = (*values, (PRESSURE, _pressure(parameters.get("weight", 1.0))))
+        for name in written.felt:  # as values more, which are the stroke's to set
+            values = (*values, (FELT[name], _felt(_TOLD_BY[name], parameters)))
         named = _named(parameters.get("named", {}))
         check_woven(text, values, named, seed, float(period))
     except WrittenError as error:
@@ -64,6 +67,8 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
     if not is_within(stages, STAGES_LEAST, STAGES_MOST, whole=True):
         raise FieldError("stages", described(stages), f"an integer from {STAGES_LEAST} to {STAGES_MOST}")
     assert isinstance(stages, int)
+    if len(written.felt) > 1 and stages > USUAL_STAGES:
+        raise FieldError("stages", described(stages), f"at most {USUAL_STAGES} of both the pressure and the rim")
     return Expression(base, text, float(period), level, seed, values, False, named, stages)
 
 
@@ -85,16 +90,18 @@ def expression_of_key(key: Sequence[object], of_key: Callable[[object], Instance
     pairs = [(str(name), value) for name, value in zip(key[6::2], key[7::2], strict=True)]
     values = {name: value for name, value in pairs if not name.startswith('"')}
     named = {name.strip('"'): of_key(inner) for name, inner in pairs if name.startswith('"')}
-    told = {"text": key[2], "period": key[3], "level": key[4], "seed": key[5], "weight": values.pop(PRESSURE, 1.0)}
+    felt = {member: values.pop(FELT[name], 1.0) for name, member in _TOLD_BY.items()}
+    told = {"text": key[2], "period": key[3], "level": key[4], "seed": key[5], **felt}
     made = expression({**told, "values": values, "named": named}, base)
     return replace(made, covers=key[0] == "expression-cover")
 
 
-def _pressure(weight: object) -> float:
-    if not is_within(weight, 0.0, 1.0):
-        raise FieldError("weight", described(weight), "a number from 0 to 1: the pressure")
-    assert isinstance(weight, int | float)
-    return float(weight) + 0.0
+def _felt(member: str, parameters: Mapping[str, object]) -> float:
+    value = parameters.get(member, 1.0)
+    if not is_within(value, 0.0, 1.0):
+        raise FieldError(member, described(value), "a number from 0 to 1")
+    assert isinstance(value, int | float)
+    return float(value) + 0.0
 
 
 @lru_cache(256)

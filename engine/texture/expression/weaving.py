@@ -23,7 +23,7 @@ from engine.texture.expression.naming.elsewhere import Elsewhere
 from engine.texture.expression.sampling.errors import Errors
 from engine.texture.expression.slopes import Slopes
 from engine.texture.expression.spreads import Spreads
-from engine.texture.expression.written import PICK, PRESSURE, SLIDER, STROKE_NAMES, Term, WrittenError, WrittenText
+from engine.texture.expression.written import FELT, PICK, SLIDER, STROKE_NAMES, Term, WrittenError, WrittenText
 
 NESTED_MOST = 160  # parts within one another, lines that others refer to counted in
 _NARROW = 1e-9
@@ -320,10 +320,10 @@ def _name(weaver: Weaver, term: Term, env: Env) -> Value:
         return Value((env.x if term.told == "x" else env.y,))
     if env.static and term.told in ("fw", "level"):
         weaver.refuse(term, "a number that changes from level to level", "one that does not")
-    if term.told == PRESSURE:
-        pressure = setting.values.get(PRESSURE, 1.0)
-        assert not isinstance(pressure, str)
-        return Value((weaver.graph.constant(pressure),))
+    if term.told in FELT:
+        felt = setting.values.get(FELT[term.told], 1.0)
+        assert not isinstance(felt, str)
+        return Value((weaver.graph.constant(felt),))
     if term.told in STROKE_NAMES and weaver.scene is not None:
         return Value((weaver.scene.named(weaver, term),))
     told = {"fw": setting.width, "level": float(setting.level), "seed": float(setting.seed % (1 << 24))}

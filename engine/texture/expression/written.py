@@ -19,7 +19,8 @@ from engine.numeric.formula import CONSTANTS
 from engine.numeric.reader import ARITHMETIC_SIGNS, NUMBER, Reader, Token, Words, quoted, tokens
 
 CHARACTERS_MOST, LINES_MOST, PARTS_MOST, DEPTH_MOST = 16_384, 64, 2_000, 40
-PRESSURE = "pressure"
+PRESSURE, OWN_RIM = "pressure", "rim"  # what a stroke tells of each of its pixels,
+FELT = {PRESSURE: PRESSURE, OWN_RIM: "the rim"}  # as values of a text beside those of its sliders
 STROKE_NAMES = {
     "along": "how far along its stroke a place lies",
     "across": "how far to the right of its stroke a place lies, seen along it",
@@ -28,7 +29,12 @@ STROKE_NAMES = {
 }
 PLACERS = ("scatter", "row")
 OUTER_WORD = "outer"
-_YIELDING = (*STROKE_NAMES, *PLACERS, OUTER_WORD)  # words that a line may have for its name, as those of old texts do
+_YIELDING = (
+    *STROKE_NAMES,
+    *PLACERS,
+    OUTER_WORD,
+    OWN_RIM,
+)  # that a line may have for its name, as in old texts
 PLACE_NAMES = {
     **STROKE_NAMES,
     "x": "the place, in periods from the left",
@@ -36,6 +42,7 @@ PLACE_NAMES = {
     "fw": "the width of a pixel, in periods",
     "level": "the level that is looked at: each has twice the pixels of the one before",
     PRESSURE: "how hard the pen pressed, 0 to 1; 1 where there is no pen",
+    OWN_RIM: "how far within its stroke's rim a place lies, 0 to 1: a radius of the brush; 1 where there is no stroke",
     "seed": "the number that tells one texture from another of the same text",
 }
 SLIDER, PICK = "slider", "pick"
@@ -101,9 +108,10 @@ class WrittenText:
         return {line.name: line.slider for line in self.lines if line.slider is not None}
 
     @property
-    def presses(self) -> bool:
-        """Tells whether any line looks at the pressure."""
-        return any(term.told == PRESSURE for term in self._terms())
+    def felt(self) -> tuple[str, ...]:
+        """Gives what lines look at of that which a stroke tells of each pixel."""
+        told = {term.told for term in self._terms()} - {line.name for line in self.lines}
+        return tuple(name for name in FELT if name in told)
 
     @property
     def places(self) -> bool:

@@ -24,7 +24,7 @@ from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
 from engine.texture.expression.sampling.far_fit import FITTED_BELOW, fit_to_near, near_level, shown_at_places
 from engine.texture.expression.sampling.sample_trial import measured_side, samples_of
 from engine.texture.expression.weaving import Setting, Woven
-from engine.texture.expression.written import PRESSURE
+from engine.texture.expression.written import FELT, OWN_RIM, PRESSURE
 from engine.texture.record import Instance
 
 USUAL_STAGES, STAGES_LEAST, STAGES_MOST = 5, 2, 9  # pressures from 0 to 1, between which is mixed
@@ -74,20 +74,31 @@ class Expression:
     @property
     def stages(self) -> int:
         """Gives how many textures of as many pressures are mixed where the pen's pressure counts, else 1."""
-        return self.tabulated if any(name == PRESSURE for name, _ in self.values) else 1
+        return self._stages_of(PRESSURE)
 
-    def under(self, pressure: float) -> tuple[tuple[float, Expression], ...]:
-        """Returns what a stroke of a pressure, 0 to 1, mixes: parts, which together are 1, and the textures."""
-        last = self.stages - 1
-        if last == 0:
-            return ((1.0, self),)
-        before = min(int(pressure * last), last - 1)
-        part = pressure * last - before
-        parts = ((1.0 - part, before), (part, before + 1))
-        return tuple((weight, self._at_pressure(k / last)) for weight, k in parts if weight > 0.0)
+    @property
+    def rims(self) -> int:
+        """Gives how many textures of as many distances from the rim are mixed where that counts, else 1."""
+        return self._stages_of(OWN_RIM)
 
-    def _at_pressure(self, pressure: float) -> Expression:
-        values = tuple((name, pressure if name == PRESSURE else value) for name, value in self.values)
+    def _stages_of(self, felt: str) -> int:
+        return self.tabulated if any(name == FELT[felt] for name, _ in self.values) else 1
+
+    def under(self, pressure: float, rim: float) -> tuple[tuple[float, Expression], ...]:
+        """Returns what a stroke mixes at a pressure and so far from its rim, each 0 to 1: parts, which together are 1,
+        and the textures."""
+        found: tuple[tuple[float, Expression], ...] = ((1.0, self),)
+        for name, value in ((PRESSURE, pressure), (OWN_RIM, rim)):
+            last = self._stages_of(name) - 1
+            if last > 0:
+                before = min(int(value * last), last - 1)
+                part = value * last - before
+                parts = [(1.0 - part, before / last), (part, (before + 1) / last)]
+                found = tuple((a * b, one._at(name, at)) for a, one in found for b, at in parts if b > 0.0)
+        return found
+
+    def _at(self, felt: str, at: float) -> Expression:
+        values = tuple((name, at if name == FELT[felt] else value) for name, value in self.values)
         return replace(self, values=values)
 
     @property

@@ -145,7 +145,7 @@ def test_what_looks_at_the_pressure_has_stages():
     assert expression({"text": "x", "stages": 9}, 0).stages == 1
     few = expression({"text": text, "stages": 3}, 0)
     assert (few.stages, few.key) == (3, expression({"text": text}, 0).key)
-    assert [(part, dict(one.values)["pressure"]) for part, one in few.under(0.75)] == [(0.5, 0.5), (0.5, 1.0)]
+    assert [(part, dict(one.values)["pressure"]) for part, one in few.under(0.75, 1.0)] == [(0.5, 0.5), (0.5, 1.0)]
     for wrong in ({"weight": 2}, {"weight": "hard"}, {"values": {"pressure": 0.5}}, {"stages": 1}, {"stages": 2.5}):
         with pytest.raises(FieldError):
             expression({"text": text, **wrong}, 0)
@@ -165,6 +165,23 @@ def test_a_stroke_follows_the_pressure():
     assert len(resolve(few, {"t": texture}, 0, 0).under(TileKey(0, 0, 0), pressure)[2]) == 2
     told = from_json({"ink": [{"texture": "t", "amount": 1, "weight": 0.5}]})
     assert not resolve(told, {"t": texture}, 0, 0).swayed
+
+
+def test_a_stroke_follows_its_rim():
+    texture = Texture("expression", Map({"text": "mix(#ff0000, #0000ff, rim) * (0.5 + 0.5*pressure)", "stages": 3}))
+    brush = from_json({"colour": "#00ff00", "ink": [{"texture": "t", "amount": 1}]})
+    ink = resolve(brush, {"t": texture}, 0, 0)
+    pressure, rim = np.meshgrid(*[np.linspace(0, 1, 128, dtype=np.float32)] * 2)
+    colour, _, inks = ink.under(TileKey(0, 0, 0), pressure, rim)
+    np.testing.assert_allclose(colour[0], (1 - rim) * (0.5 + 0.5 * pressure), atol=1e-5)
+    np.testing.assert_allclose(colour[2], rim * (0.5 + 0.5 * pressure), atol=1e-5)
+    assert len(inks) == 9
+    own = expression({"text": "rim = slider(0.25, 0, 1); rim"}, 0)  # a name as any, which a line may have
+    assert (own.rims, own.appearance(0, Rect(0, 0, 1, 1)).item()) == (1, -0.5)
+    made = expression({"text": "rim + 0*x", "rim": 0.5}, 0)
+    assert table.from_key(list(made.key), {}) == made
+    with pytest.raises(FieldError, match="stages"):
+        expression({"text": "rim*pressure", "stages": 6}, 0)
 
 
 def test_a_seed_is_another_texture():
