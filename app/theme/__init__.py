@@ -31,6 +31,7 @@ GROUNDS = {
     "scrollbar_grab_hovered": "knob",
     "scrollbar_grab_active": "knob",
     "check_mark": "text",
+    "plot_histogram": "accent_soft",
     "checkbox_selected_bg": "field",
     "slider_grab": "grab",
     "slider_grab_active": "text",

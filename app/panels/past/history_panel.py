@@ -61,9 +61,7 @@ class HistoryPanel(Panel):
     def _way(self, desk: Desk, part: float) -> None:
         """Draws how far the painting is played anew, and what gives it up."""
         wide = _WAYS_WIDE * imgui.get_font_size() - imgui.get_frame_height() - imgui.get_style().item_spacing.x
-        imgui.push_style_color(imgui.Col_.plot_histogram, theme.vec(theme.look.accent_soft))
         imgui.progress_bar(part, ImVec2(wide, 0), f"{part:.0%}")
-        imgui.pop_style_color()
         w.tooltip("The painting is played anew up to that step")
         imgui.same_line()
         if w.icon_button("stop", icons.CLOSE, "Stay where you are"):
