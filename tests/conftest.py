@@ -21,7 +21,8 @@ for _number in (signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)):
     if signal.getsignal(_number) is signal.SIG_IGN:  # in the background of a shell, and under nohup
         signal.signal(_number, lambda *_: None)  # so what tests start does hear it
 os.environ |= {"XDG_STATE_HOME": f"{_OWN}/state", "XDG_CONFIG_HOME": f"{_OWN}/config"}
-# The same examples every time, so that what fails is what was changed, and no time on a loaded machine; --hypothesis-profile=default looks for others.
+# The same examples every time, and as long as they take, so that what fails is what was changed;
+# --hypothesis-profile=default looks for others.
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.load_profile("same")
 

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from app.desk.desk import Desk
-from app.desk.naming import free_name
 from engine.painting import commands as c
 from engine.studio.requests import Do
 
@@ -55,11 +54,6 @@ def paint_chosen(desk: Desk) -> bool:
 def posts(make: Callable[[], c.Command]) -> Callable[[Desk], None]:
     """Returns what posts a command that `make` makes."""
     return lambda desk: desk.post(Do(make()))
-
-
-def next_layer_name(desk: Desk, stem: str) -> str:
-    """`stem` with the first number that no layer has yet."""
-    return free_name(stem, {row.name for row in desk.known.scene.layers} if desk.known.scene else set())
 
 
 def active(desk: Desk) -> str:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from app.actions.action import Action as A
-from app.actions.action import next_layer_name, ready
+from app.actions.action import ready
 from app.desk.desk import Desk
 from app.desk.naming import free_name
 from app.desk.places import endless, going
+from app.desk.stack.new_names import new_layer_name
 from engine.canvas.placing.pose import SourcePart
 from engine.painting import commands as c
 from engine.studio.layer_rows import LayerRow
@@ -18,7 +19,7 @@ def _place_in_itself(desk: Desk) -> None:
     middle = frame.x0 + frame.width // 4, frame.y0 + frame.height // 4
     at = middle[0] - frame.x0 // 2, middle[1] - frame.y0 // 2
     placing = c.Placing(of=None, at=at, level=0, levels=-1, part=SourcePart(0, frame))
-    name = next_layer_name(desk, "In itself")
+    name = new_layer_name(desk, "In itself")
     desk.post(Do(c.AddPlacement(name, placing)))
     desk.post(Do(c.SelectLayer(name)))  # what is moved next, and zoomed into
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.actions.action import Action as A
-from app.actions.action import active, chosen, next_layer_name, paint_chosen, ready
+from app.actions.action import active, chosen, paint_chosen, ready
 from app.desk.desk import Desk
 from app.desk.framing.frame_state import FRAME_TOOL
 from app.desk.known import moved_by
@@ -13,6 +13,7 @@ from app.desk.moving.floating import laying, lift, set_part_down, takes_part
 from app.desk.moving.move_state import TOOL
 from app.desk.moving.poses import shifted
 from app.desk.stack.many_rows import chosen_rows, free_group_name, group_rows, post_together
+from app.desk.stack.new_names import new_layer_name
 from engine.canvas.placing.pose import UNMOVED
 from engine.checks.roles import AS_HEIGHT, REFERENCE
 from engine.painting import commands as c
@@ -26,13 +27,13 @@ def _hidden(desk: Desk) -> bool:
 
 
 def _add(desk: Desk) -> None:
-    desk.post(Do(c.AddLayer(next_layer_name(desk, "Layer"))))
+    desk.post(Do(c.AddLayer(new_layer_name(desk, "Layer"))))
 
 
 def _duplicate(desk: Desk) -> None:
     name = active(desk)
     selected = "copy" if paint_chosen(desk) and desk.selecting.selected else None
-    copy = next_layer_name(desk, f"{name} copy")
+    copy = new_layer_name(desk, f"{name} copy")
     desk.post(Do(c.DuplicateLayer(name, copy, selected=selected)))
     if not paint_chosen(desk):
         desk.post(Do(c.SelectLayer(copy)))  # as the copy of a layer is chosen by itself
@@ -40,7 +41,7 @@ def _duplicate(desk: Desk) -> None:
 
 def _cut_out(desk: Desk) -> None:
     name = active(desk)
-    desk.post(Do(c.DuplicateLayer(name, next_layer_name(desk, f"{name} cut"), selected="cut")))
+    desk.post(Do(c.DuplicateLayer(name, new_layer_name(desk, f"{name} cut"), selected="cut")))
 
 
 def _can_cut_out(desk: Desk) -> bool:
@@ -53,7 +54,7 @@ def _show_again(desk: Desk) -> None:
     placing = c.Placing(of=name, at=(aside, aside), level=desk.view.shown_level)
     taken = {row.name for row in desk.known.scene.layers} if desk.known.scene else set()
     wanted = f"{name} again"
-    again = wanted if wanted not in taken else next_layer_name(desk, wanted)
+    again = wanted if wanted not in taken else new_layer_name(desk, wanted)
     desk.post(Do(c.AddPlacement(again, placing)))
     desk.post(Do(c.SelectLayer(again)))  # what is moved next
 

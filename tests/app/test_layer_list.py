@@ -150,3 +150,16 @@ def test_a_layer_becomes_the_height_of_the_land_and_part_of_the_picture_again():
         perform(desk, ACTIONS["height"])
         made = apply(made, posted[-1].command)
     assert [node.role for node in layers.walk(made.root) if node.name == "Hills"] == [""]
+
+
+def test_layers_asked_for_before_the_engine_has_made_the_one_before_have_names_of_their_own():
+    posted = []
+    desk = Desk(View(Place(0, 0, 0), 0, 0.0, 1280, 800), posted.append, behind=lambda: True)
+    desk.learn(ready=True)
+    for _ in range(3):
+        perform(desk, ACTIONS["add_layer"])
+    perform(desk, ACTIONS["add_group"])
+    assert [request.command.name for request in posted] == ["Layer 1", "Layer 2", "Layer 3", "Group 1"]
+    desk.behind = lambda: False
+    perform(desk, ACTIONS["add_layer"])  # none of them came
+    assert posted[-1].command.name == "Layer 1"

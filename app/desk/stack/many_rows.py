@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from app.desk.desk import Desk
-from app.desk.naming import free_name
 from app.desk.stack.chosen_layer import choose_layer
+from app.desk.stack.new_names import new_layer_name
 from engine.painting import commands as c
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow
@@ -75,7 +75,7 @@ def reach_row(desk: Desk, shown: Sequence[LayerRow], row: LayerRow) -> None:
 
 def free_group_name(desk: Desk) -> str:
     """Returns a name for a new group."""
-    return free_name("Group", {row.name for row in desk.known.scene.layers} if desk.known.scene else set())
+    return new_layer_name(desk, "Group")
 
 
 def dropped_rows(

@@ -15,7 +15,8 @@ class StackState:
     """`only`: the name of the layer, group or placement that is seen alone; None while the painting is.  `serial`: of
     the painting that it is of; `many`: names of those chosen together, of which one is active, empty where that is
     chosen alone; `together`: a number for what is to be undone as one; `colours`: of rows, by the names
-    of their layers, rows of ROW_COLOURS; `coloured`: the serial and the file of the painting that they are of."""
+    of their layers, rows of ROW_COLOURS; `coloured`: the serial and the file of the painting that they are of;
+    `given`: names of layers that were asked for, until they are there."""
 
     only: str | None = None
     serial: int = 0
@@ -23,6 +24,7 @@ class StackState:
     together: int = 0
     colours: dict[str, str] = field(default_factory=dict)
     coloured: tuple[int, str | None] = (-1, None)
+    given: set[str] = field(default_factory=set)
 
     def toggle(self, post: Callable[[Request], None], name: str) -> None:
         """Shows one alone, or the painting again."""
