@@ -32,6 +32,19 @@ def test_each_shows_things_near_and_far(name):
     assert whole[:3][:, whole[3] > 0.9].std() > 0.03
 
 
+@pytest.mark.parametrize("name", ["fence", "houses", "hedge"])
+def test_season_and_style_are_seen(name):
+    text = generator_library()[name].text
+    known = [word for word in ("season", "style") if f"{word} = slider" in text]
+    assert known
+    seen = []
+    for values in ({}, *({word: 1.0} for word in known)):
+        made = expression({"text": text, "values": values}, 0)
+        laid = LaidStroke(0, made.text, 16.0, 5, (40, 90), LINE, made.values)
+        seen.append(laid.means(0, Rect.at(44, 70, 40, 30)))
+    assert all(np.abs(one - seen[0]).mean() > 1e-4 for one in seen[1:]), known
+
+
 def test_they_are_brushes_of_a_group():
     found = generator_brushes()
     assert {preset.group for preset in found} == {GENERATORS}
