@@ -5,7 +5,9 @@ the map of all, and that on plain expansion.  What the maps leave over, a neighb
 makes the like of white noise.  Of that, large parts count little: an edge that is foretold a little wrong is no grain.
 
 A picture whose finest octave is blurred away is looked at from the first on that is not.  What is added is no
-stronger than the slope of the picture's octaves tells.  The same bits on every machine.
+stronger than the slope of the picture's octaves tells.  Print and lone hairs are too fine for their pixels: there the
+last octave is the roughest, and its steps and rows, learnt, would come again half as large; so little is made of them.
+The same bits on every machine.
 """
 
 from __future__ import annotations
@@ -65,7 +67,7 @@ def maps_fitted(pictures: Sequence[np.ndarray]) -> Maps:
     fine = [along_axes(picture, axes) for picture in pictures]
     for _ in range(finest):
         fine = [_halved(planes) for planes in fine]
-    maps = _learnt(fine, axes)
+    maps = _calmed(_learnt(fine, axes), fine)
     strong = math.sqrt(sum(_roughness(planes) ** 2 for planes in fine) / len(fine))
     return _quietened(maps, pictures[-1], finest, slope, strong)
 
@@ -118,6 +120,17 @@ def _learnt(parts: Sequence[np.ndarray], axes: np.ndarray) -> Maps:
         size = coarse[0].shape[1] - 2 * LOOKED_ROUND, coarse[0].shape[2] - 2 * LOOKED_ROUND
         _learn_noise((left / lively).reshape(3, len(parts), *size), kinds, maps.rough[:, axis, :, :3])
     return replace(maps, edges=edges)
+
+
+def _calmed(maps: Maps, parts: Sequence[np.ndarray]) -> Maps:
+    """Returns maps that are nearer to plain expansion, the more the finest octave is rougher than the next one."""
+    rough, next_ = (sum(_roughness(p) ** 2 for p in some) for some in (parts, [_halved(p) for p in parts]))
+    if rough <= next_ or next_ <= 0.0:
+        return maps
+    part = next_ / rough * math.sqrt(next_ / rough)
+    sharp = maps.sharp.copy()
+    sharp[..., :3] = rounded(_plain() + part * (maps.sharp[..., :3] - _plain()))
+    return replace(maps, sharp=sharp, rough=rounded(part * maps.rough))
 
 
 def _near(coarse: np.ndarray, fine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -261,6 +261,21 @@ def test_what_is_smooth_stays_smooth():
     assert added[:, 8:-8, 8:56].mean() < 0.06 * added[:, 8:-8, 72:120].mean()
 
 
+def test_print_that_is_too_fine_for_its_pixels_gets_no_rows_beside_it():
+    """What is learnt of such a picture's steps is mostly its steps."""
+    random = np.random.default_rng(3)
+    page = np.full((3, 128, 128), 0.85, np.float32)
+    for y in range(4, 120, 9):
+        for x in range(3, 122, 6):
+            down, across = random.random(2) < 0.5
+            page[:, y : y + 6 * down, x] = 0.1
+            page[:, y + random.integers(6), x : x + 4 * across] = 0.1
+    page += 0.01 * random.standard_normal((1, 128, 128)).astype(np.float32)
+    found = refined(page, hash_plane(5, 0, 0, 126, 126), maps_fitted([page]), 0)
+    paper = page[0, 2:-2, 2:-2].repeat(2, 0).repeat(2, 1) > 0.6
+    assert np.abs(found[0] - 0.85)[paper].mean() < 0.035
+
+
 def test_octaves_fall_as_the_pictures_do():
     texture = made("image", period=96, level=0)
     sizes = [texture.bandpass(level, Rect.at(0, 0, 96 << level, 96 << level)).std() for level in (1, 2)]
