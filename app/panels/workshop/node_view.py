@@ -21,7 +21,7 @@ from app.panels.workshop.node_menus import TIDY, NodeMenus
 
 _WHOLE = frozenset(("octaves", "seed", "corners", "n"))  # values that are whole numbers
 _PICTURE = ImVec2(2.4, 1.5)  # letters' sizes
-_FRAMES = 3  # until the sizes of nodes are known
+_FRAMES = 4  # until the sizes of nodes are known, and all are in sight
 _SOLO = "Click to look at this line alone"
 _NUMBER = "Drag to change it, or Ctrl+click to type"
 _COLOUR = "Click to choose another colour"
@@ -60,10 +60,11 @@ class NodeView:
             self._connect(found)
         ed.suspend()
         chosen = self._menus.draw(desk, found if right else None)
-        self._canvas.tell()
+        if not self._fit:
+            self._canvas.tell()
         ed.resume()
         self._fit = max(0, self._fit - 1)
-        if self._fit == 1:
+        if self._fit == 2:
             ed.navigate_to_content(0.0)
         ed.end()
         if chosen == TIDY:
