@@ -18,8 +18,10 @@ _PART, _OVER = 0.4, 3  # of the example's shorter side: a piece; the part of it,
 _NARROWEST = 6  # pixels along a piece where places are looked for
 _LOOKED_AT, _OFTEN_LOOKED_AT = 72 * 72, 40 * 40  # pixels of the example there, about; where pieces are many
 _MANY = 24
-_TRIES, _PIECES = 8, 240  # layouts, and pieces of all of them, at most
+_TRIES, _PIECES = 6, 200  # layouts, and pieces of all of them, at most
 _NEARLY = 10  # a piece may disagree by a tenth more than the best
+# What was laid already disagrees the more, each time: by a part of what it does, and by one of the example's variance.
+_AGAIN, _USED = 4, 64
 _DOMAIN = 0x71756C74  # "qult"
 
 Places = dict[tuple[int, int], tuple[int, int]]  # of the example, by row and column of pieces
@@ -34,6 +36,13 @@ class _Ground:
     side: int
     rows: int
     columns: int
+
+    @property
+    def varied(self) -> int:
+        """Gives the variance of the example's colours, summed."""
+        flat = self.example.reshape(-1, self.example.shape[2])
+        means = flat.sum(axis=0, dtype=np.int64) // len(flat)
+        return int(np.square(flat - means).sum(dtype=np.int64)) // len(flat)
 
     def coarser(self) -> _Ground:
         """Returns the same at half the size."""
@@ -50,10 +59,11 @@ class _Ground:
 
 
 class _Laid:
-    """A torus that pieces are laid on; `spent`: what its cuts cost."""
+    """A torus that pieces are laid on; `used`: how often which pixel of the example was, int64 (h, w)."""
 
     def __init__(self, ground: _Ground) -> None:
-        self.ground, self.spent = ground, 0
+        self.ground, self._spent, self._long = ground, 0, 0
+        self.used = np.zeros(ground.example.shape[:2], np.int64)
         self._values = np.zeros((*ground.size, ground.example.shape[2]), np.int32)
         self._known = np.zeros(ground.size, np.bool_)
         self.source = np.zeros((*ground.size, 2), np.int32)
@@ -80,7 +90,7 @@ class _Laid:
                 kept, spent = _cut(apart[:, :wide])
                 taken = taken.copy()
                 taken[:, :wide] &= kept
-                self.spent += spent
+                self._spent, self._long = self._spent + spent, self._long + side
         apart, known, taken = (np.rot90(one, -1) for one in (apart, known, taken))
         taken = taken | ~known
         down, across = np.nonzero(taken)
@@ -88,6 +98,14 @@ class _Laid:
         self._values[ys, xs] = new[down, across]
         self.source[ys, xs] = np.stack([n + down, m + across], axis=-1)
         self._known[there] = True
+        self.used[n : n + side, m : m + side] += 1
+
+    def unlike(self) -> float:
+        """Tells how far off it is, squared and for a pixel: along its cuts, and in which values there are."""
+        shown, own = (np.sort(one.reshape(-1, one.shape[2]), axis=0) for one in (self._values, self.ground.example))
+        ranks = np.arange(len(shown)) * len(own) // len(shown)
+        values = int(np.square(shown - own[ranks]).sum(dtype=np.int64))
+        return self._spent / max(self._long, 1) + values / len(shown)
 
 
 def has_pieces(example: Size, size: Size) -> bool:
@@ -101,7 +119,7 @@ def pieced(picture: np.ndarray, size: Size, seed: int) -> Iterator[tuple[float, 
     count = grounds[0].rows * grounds[0].columns
     tries = max(1, min(_TRIES, _PIECES // count))
     whole, done = float(count * (tries + len(grounds) - 1)), 0
-    best: tuple[int, Places] | None = None
+    best: tuple[float, Places] | None = None
     for number in range(tries):
         laid, places = _Laid(grounds[-1]), Places()
         chances = hash_plane(fold_key(_DOMAIN, seed, number), 0, 0, grounds[0].columns, grounds[0].rows)
@@ -110,8 +128,8 @@ def pieced(picture: np.ndarray, size: Size, seed: int) -> Iterator[tuple[float, 
             laid.put(at, places[at])
             done += 1
             yield done / whole, None
-        if best is None or laid.spent < best[0]:
-            best = laid.spent, places
+        if best is None or laid.unlike() < best[0]:
+            best = laid.unlike(), places
     assert best is not None
     places = best[1]
     for ground in reversed(grounds[:-1]):
@@ -155,10 +173,19 @@ def _anywhere(laid: _Laid, at: tuple[int, int], chance: int) -> tuple[int, int]:
         np.multiply(apart, apart, out=apart)
         every += apart
     costs = every.sum(axis=-1, dtype=np.int64)
+    used = _sums(laid.used, side)
+    costs += (used * (costs // _AGAIN + laid.ground.varied * len(looked_at) // _USED)) // (side * side)
     least = int(costs.min())
     near = np.flatnonzero(costs <= least + least // _NEARLY + len(looked_at) * old.shape[2])
     n, m = divmod(int(near[chance % near.size]), wide)
     return n, m
+
+
+def _sums(values: np.ndarray, side: int) -> np.ndarray:
+    """Returns the sums of all squares of a plane, by their first row and column: int64."""
+    whole = np.pad(np.cumsum(np.cumsum(values, axis=0), axis=1), ((1, 0), (1, 0)))
+    out: np.ndarray = whole[side:, side:] - whole[:-side, side:] - whole[side:, :-side] + whole[:-side, :-side]
+    return out
 
 
 def _near(laid: _Laid, at: tuple[int, int], place: tuple[int, int]) -> tuple[int, int]:

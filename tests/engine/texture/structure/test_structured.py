@@ -79,7 +79,7 @@ BITS = {
     "coarse": "a5321a4107bd",
     "objects": "fab3411d8bbf",
     "full": "55f5a1079362",
-    "pieces": "444734d40c8d",
+    "pieces": "c2fa61cb93b4",
 }
 ODD = {
     "one colour": (np.full((3, 20, 20), 0.3, np.float32), (30, 21)),
@@ -112,6 +112,15 @@ def test_pieces_of_a_wall_make_a_wall():
     rows, columns = (np.arange(n) for n in texture.shape[1:])
     walls = (wall[:, (rows[:, None] + v) % 48, (columns + u) % 48] for v in range(24) for u in range(16))
     assert any(np.array_equal(texture, one) for one in walls)
+
+
+def test_pieces_of_a_line_on_blank_ground_have_it():
+    """They would agree best where there is nothing."""
+    line = np.full((1, 64, 96), 0.95, np.float32)
+    line[:, 28:36] = 0.2
+    for seed in range(3):
+        *_, (_, texture) = pieced(line, (64, 64), seed)
+        assert abs(texture.mean() - line.mean()) < 0.07
 
 
 def test_statistics_between_two_begin_with_the_first_and_end_with_the_other():
