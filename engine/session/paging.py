@@ -79,10 +79,10 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
         for k in _farthest_first(pyramid, level):
             stored = pyramid.levels[k]
             if isinstance(stored, PagedLevel):
-                yield from (put_page_away(page, pyramid.depth - _OF_LATE) for page in stored.pages.values())
+                yield from (put_page_away(page, _newest(pyramid)) for page in stored.pages.values())
     for late in (False, True):
         for pyramid in held:
-            newest = pyramid.depth - _OF_LATE
+            newest = _newest(pyramid)
             for record in _records(pyramid, level):
                 yield encode(record, None) if (late or record.depth <= newest) and _is_worth(record) else 0
     for pyramid in held:
@@ -92,6 +92,11 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
     yield from map(encode_tile, grown)
     for tile in grown:
         yield put_away(tile.held) if isinstance(tile.held, CodedTile) else 0
+
+
+def _newest(pyramid: Pyramid) -> int:
+    """Returns the commit whose records, and all before, were not stored of late: those of a file come before any."""
+    return max(pyramid.depth - _OF_LATE, 0)
 
 
 def _is_worth(record: Record) -> bool:

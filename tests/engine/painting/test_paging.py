@@ -151,6 +151,12 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch,
     save(tmp_path / "away.ora", Snapshot(session.painting))
     assert (tmp_path / "away.ora").read_bytes() == (tmp_path / "here.ora").read_bytes()
     assert contents(open_painting(tmp_path / "away.ora").painting, depth=False) == contents(session.painting, False)
+    opened = open_painting(tmp_path / "away.ora").painting
+    pages = Paging()
+    pages.want(opened.root, None, 1 << 30)  # though nobody has painted on it
+    pages.step(1 << 30)
+    assert all(record.inks for record in next(layers.layers(opened.root)).pyramid.levels[0].here())
+    assert contents(opened, depth=False) == contents(session.painting, False)
     session.do(c.parse({"do": "stroke", "points": [[10, 10], [40, 60]], "brush": {"mode": "erase", "radius": 9}}))
     after = contents(session.painting)
     session.do(c.Undo(1))
