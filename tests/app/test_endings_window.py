@@ -60,6 +60,7 @@ def test_a_stroke_stays_when_the_focus_goes_and_the_program_ends_well_when_the_d
     app.keys("ctrl+z")
     assert app.comes_to(empty)
     draw(app, (400, 300), (500, 350))
+    app.canvas_unlike(empty)  # the display lives until the stroke has come to the program
     process.kill()
     assert app.process.wait(30) == 0, app.log.read_text()
     words = app.log.read_text()
