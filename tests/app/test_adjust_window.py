@@ -6,6 +6,7 @@ import pytest
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 
 
+@pytest.mark.nightly
 def test_an_adjustment_is_seen_before_it_is_done_and_taken_back_at_once(program):
     app = program()
     app.settled(60.0)

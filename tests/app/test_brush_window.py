@@ -11,6 +11,7 @@ pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 WAVE = [(380 + 12 * i, 400 + (30 if i % 8 < 4 else -30)) for i in range(24)]
 
 
+@pytest.mark.nightly
 def test_a_formula_written_in_the_panel_changes_paint_and_lays_none(program):
     app = program()
     empty = app.canvas()

@@ -20,6 +20,7 @@ def until(good, seconds=90.0):
         time.sleep(0.1)
 
 
+@pytest.mark.nightly
 def test_what_lies_on_the_ground_of_a_dropped_photograph_is_cut_out(program):
     app = program()
     (picture,) = composites(128, ("three shapes on white",))

@@ -53,6 +53,7 @@ def starts(program, folder, **how):
     assert "Traceback" not in (folder / "state/inkfall/log/inkfall.log").read_text(errors="replace")
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("cuts", [True, False], ids=["cut", "flipped"])
 def test_it_starts_on_a_damaged_home(program, home, tmp_path, cuts):
     shutil.copytree(home, tmp_path, dirs_exist_ok=True)

@@ -45,6 +45,7 @@ def test_a_click_fills_a_region_and_asks_before_it_runs_out_of_sight(app):
     app.until_gone("Fill all the same")
 
 
+@pytest.mark.nightly
 def test_a_colour_that_is_dropped_into_a_region_fills_it(app):
     colour = app.screen()[app.at("now")[::-1]].astype(int)
     app.do("mousemove", *app.at("now"))

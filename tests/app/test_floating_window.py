@@ -58,6 +58,7 @@ def test_what_is_selected_floats_until_it_is_set_down_as_one_step(app, tmp_path)
     assert app.comes_to(painted)
 
 
+@pytest.mark.nightly
 def test_escape_takes_it_back_and_another_tool_sets_it_down(app):
     painted = app.canvas()
     select(app)

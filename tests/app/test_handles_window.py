@@ -86,6 +86,7 @@ def test_the_handle_above_turns_as_one_step_and_back_to_nothing_lost(app, tmp_pa
     assert app.comes_to(painted)
 
 
+@pytest.mark.nightly
 def test_alt_drags_a_copy_in_one_step(app, tmp_path):
     painted = app.canvas()
     app.keys("v")

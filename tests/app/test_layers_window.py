@@ -45,6 +45,7 @@ def test_a_stroke_on_a_hidden_layer_is_told_and_the_layer_shown_at_a_click(progr
     app.canvas_unlike(empty)
 
 
+@pytest.mark.nightly
 def test_another_active_layer_is_brought_into_sight(program):
     app = program()
     for count in range(1, 10):
@@ -59,6 +60,7 @@ def test_another_active_layer_is_brought_into_sight(program):
     app.box("Layer 9")
 
 
+@pytest.mark.nightly
 def test_how_high_and_how_wet_the_land_is_are_dragged_in_one_step_each(program, tmp_path):
     app = program()
     app.settled(60.0)
@@ -136,6 +138,7 @@ def test_several_rows_are_chosen_grouped_dragged_and_hidden_in_one_step_each_and
     app.box("Layer 3")
 
 
+@pytest.mark.nightly
 def test_a_row_is_coloured_by_its_menu_and_so_again_with_its_painting(program, tmp_path):
     app = program()
     app.settled()

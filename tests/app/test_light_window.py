@@ -42,6 +42,7 @@ def exported(app, path):
     app.until(lambda screen: path.exists())
 
 
+@pytest.mark.nightly
 def test_the_window_shows_what_the_export_does(program, tmp_path):
     (tmp_path / "a.jsonl").write_text("\n".join(map(json.dumps, LINES)) + "\n")
     app = program(str(tmp_path / "a.jsonl"))

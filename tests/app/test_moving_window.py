@@ -29,6 +29,7 @@ def test_a_layer_is_dragged_and_nudged_and_nothing_of_it_is_lost(app):
     assert not any(key[1] == "Layer 1 (source)" for key in app.boxes())
 
 
+@pytest.mark.nightly
 def test_what_is_shown_again_is_moved_by_itself_and_leads_to_its_source(app):
     once = app.canvas()
     app.click("show_again")

@@ -31,6 +31,7 @@ def edges(screen):
     return float(np.abs(np.diff(inner, axis=1)).max(axis=1).mean())
 
 
+@pytest.mark.nightly
 def test_a_layer_is_extrapolated_where_one_looks_closer(program, stones):
     found = []
     for refined in (False, True):

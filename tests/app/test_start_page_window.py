@@ -41,6 +41,7 @@ def test_a_press_beside_the_page_closes_it_and_paints_and_it_never_comes_again(p
     assert told["brush"]["name"] == "Soft airbrush"
 
 
+@pytest.mark.nightly
 def test_the_view_of_a_painting_and_what_was_exported_last_come_back(with_stroke):
     app = with_stroke
     path = app.folder / "lake.ora"

@@ -35,6 +35,7 @@ def test_a_field_takes_what_is_typed_right_after_a_click(program):
     assert abs(app.settled()[number].astype(int) - before).max() > 60
 
 
+@pytest.mark.nightly
 def test_a_digit_typed_over_a_field_that_has_no_focus_leaves_the_picture_as_it_is(program):
     app = program()
     app.keys("2")

@@ -87,11 +87,22 @@ def test_from_near_four_samples_of_a_pixel_are_enough(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_none_shimmers(name):
-    """Each level, from 4 pixels of a period to 512, is the next finer one, reduced."""
+    """Each level, of 32 pixels of a period and of 512, is the next finer one, reduced."""
+    for level in (-1, 3):
+        _shimmers_little(name, level, SHIMMER)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", NAMES)
+def test_none_shimmers_from_far(name):
+    """As above, of 4 pixels of a period."""
+    _shimmers_little(name, -4, FROM_FAR)
+
+
+def _shimmers_little(name, level, usual):
     made = expression({"text": written_library()[name].text}, -4)
-    for level in (-4, -1, 3):
-        period = 2.0 ** (level + 6)
-        rect = Rect.at(int(5.37 * period), int(3.81 * period), 24, 24)
-        woven = woven_line(made.text, made.values, (), 0, level, made.period)
-        usual = SHIMMER_EXACT if not (woven.rough or woven.jumps) else FROM_FAR if level == -4 else SHIMMER
-        assert shimmer(made, level, rect).rms * 255.0 <= usual, level
+    period = 2.0 ** (level + 6)
+    rect = Rect.at(int(5.37 * period), int(3.81 * period), 24, 24)
+    woven = woven_line(made.text, made.values, (), 0, level, made.period)
+    most = usual if woven.rough or woven.jumps else SHIMMER_EXACT
+    assert shimmer(made, level, rect).rms * 255.0 <= most, level
