@@ -48,14 +48,14 @@ def kept_planes(layer: Layer, level: int, rect: Rect, cache: TileCache) -> np.nd
     pyramid = layer.pyramid
     if rect.area < _WORTH or pyramid.bare is not None:
         return layer_planes(layer, level, rect, cache)
-    beside = max(rect.width, rect.height) <= _SCREEN_TILE
+    beside = max(rect.width, rect.height) <= _SCREEN_TILE and any(side % TILE for side in rect)
     known, whole = cache.view(pyramid, Clip(level, rect)) if beside else (False, None)
     if known:
         return covered(None if whole is None else whole.rgba, layer.growth, level, rect)
     found = {key: cache.view(pyramid, key) for key in rect.tiles(level)}
     if beside and not any(known for known, _ in found.values()):
-        inner = [Clip(level, key.rect) for key in found if rect.intersect(key.rect) == key.rect]
-        if rect.area > len(inner) * TILE * TILE and not any(cache.view(pyramid, mark)[0] for mark in inner):
+        inner = [_mark(key) for key in found if rect.intersect(key.rect) == key.rect]
+        if not any(cache.view(pyramid, mark)[0] for mark in inner):
             return covered(_by_itself(pyramid, Clip(level, rect), inner, cache), layer.growth, level, rect)
     for block in _blocks([key for key, (known, _) in found.items() if not known]):
         whole = evaluate_sparse(pyramid, level, block, cache, lent=True)
@@ -76,6 +76,13 @@ def _by_itself(pyramid: Pyramid, at: Clip, inner: list[Clip], cache: TileCache) 
     for mark in inner:
         cache.adopt(pyramid, mark, None)
     return None if whole is None else whole.rgba
+
+
+def _mark(key: TileKey) -> Clip:
+    """Returns the key of that a tile was seen, within something that is kept as it is: nothing at its corner, so that
+    it is no key of values."""
+    corner = key.rect.x0, key.rect.y0
+    return Clip(key.level, Rect(*corner, *corner))
 
 
 def _gathered(tiles: Mapping[TileKey, tuple[bool, Planes | None]], level: int, rect: Rect) -> np.ndarray | None:

@@ -79,12 +79,12 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
         for k in _farthest_first(pyramid, level):
             stored = pyramid.levels[k]
             if isinstance(stored, PagedLevel):
-                yield from (put_page_away(page, _newest(pyramid)) for page in stored.pages.values())
+                yield from (put_page_away(page, _old_until(pyramid)) for page in stored.pages.values())
     for late in (False, True):
         for pyramid in held:
-            newest = _newest(pyramid)
+            old = _old_until(pyramid)
             for record in _records(pyramid, level):
-                yield encode(record, None) if (late or record.depth <= newest) and _is_worth(record) else 0
+                yield encode(record, None) if (late or record.depth <= old) and _is_worth(record) else 0
     for pyramid in held:
         for record in _records(pyramid, level):
             yield put_away(record.held) if record.there and isinstance(record.held, CodedData) else 0
@@ -94,8 +94,9 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
         yield put_away(tile.held) if isinstance(tile.held, CodedTile) else 0
 
 
-def _newest(pyramid: Pyramid) -> int:
-    """Returns the commit whose records, and all before, were not stored of late: those of a file come before any."""
+def _old_until(pyramid: Pyramid) -> int:
+    """Returns the newest commit that is not of late: what it and all before it stored is old, and so is what a file
+    brought."""
     return max(pyramid.depth - _OF_LATE, 0)
 
 

@@ -185,6 +185,19 @@ def test_what_cuts_through_tiles_is_kept_as_it_is_and_follows_strokes():
             np.testing.assert_array_equal(0 if found is None else found, 0 if plain is None else plain)
 
 
+_SIDES = st.sampled_from([-128, -60, 0, 3, 128, 131, 256])
+
+
+@given(st.lists(st.tuples(st.integers(0, 1), _SIDES, _SIDES, st.sampled_from([64, 128, 200, 256])), max_size=6))
+@settings(max_examples=40, deadline=None)
+def test_what_was_kept_of_one_rectangle_is_never_taken_for_another(asked):
+    (a, _), cached = painted(), TileCache(1 << 24)
+    for level, left, top, side in ((0, -60, -60, 256), *asked, (0, 0, 0, 128)):
+        rect = Rect.at(left, top, side, side)
+        found, plain = kept_planes(a, level, rect, cached), layer_planes(a, level, rect)
+        np.testing.assert_array_equal(0 if found is None else found, 0 if plain is None else plain)
+
+
 def test_far_below_all_paint_nothing_is_told_by_what_is_stored():
     _, b = painted()
     cached = TileCache(1 << 24)
