@@ -85,8 +85,6 @@ def _evaluated(
     above, value = rects[0].parents(), None
     if pyramid.coarsest is None or level < pyramid.coarsest:
         return rects[0], None
-    if cache is not None and squares and _nothing_below(pyramid, level, Column(rects[0]), cache, squares):
-        return rects[0], None
     for k in range(level - 1, pyramid.coarsest - 1, -1):
         parents = rects[-1].parents().evened()
         above = parents
@@ -95,7 +93,14 @@ def _evaluated(
             break
         around = Square.of(k, parents) if cache is not None and squares and _climbed(level, k, squares) else None
         if cache is not None and around is not None:
-            above, value = around.rect, _square(pyramid, around, cache, squares - 1)
+            above = around.rect
+            known, value = cache.get(pyramid, around)
+            if not known:
+                if _nothing_below(pyramid, level, Column(rects[0]), cache, squares):
+                    return rects[0], None
+                value = _square(pyramid, around, cache, squares - 1)
+            if _is_empty(pyramid, around, value, parents):
+                return rects[0], None
             break
         if level - k >= _CLOSE:
             value = from_afar(pyramid, k, parents, cache, partial(step, pyramid))
@@ -122,10 +127,15 @@ def _nothing_below(pyramid: Pyramid, level: int, column: Column, cache: TileCach
         return False
     above = column.at(level - finest)
     around = Square.of(finest, above)
-    if around is None:
+    return around is not None and _is_empty(pyramid, around, _square(pyramid, around, cache, squares - 1), above)
+
+
+def _is_empty(pyramid: Pyramid, around: Square, value: Planes | None, rect: Rect) -> bool:
+    """Tells whether nothing is in a rectangle of a square, nor in all that lies below it."""
+    finest = pyramid.finest
+    if finest is None or finest > around.level:
         return False
-    value = _square(pyramid, around, cache, squares - 1)
-    return value is None or not value.data[:, *above.slices(around.rect)].any()
+    return value is None or not value.data[:, *rect.slices(around.rect)].any()
 
 
 def _square(pyramid: Pyramid, around: Square, cache: TileCache, squares: int) -> Planes | None:
