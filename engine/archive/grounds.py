@@ -61,7 +61,7 @@ def whole(layer: Layer, frame: Rect) -> bool:
     ground = layer.pyramid.ground
     if ground is None or layer.growth or layer.pyramid.levels is not ground.levels:
         return False
-    return ground.rect.intersect(frame) == ground.rect
+    return frame.holds(ground.rect)
 
 
 def painted_since(pyramid: Pyramid) -> Iterator[tuple[TileKey, Record]]:

@@ -7,6 +7,7 @@ pyramid and the place; the cache only shortens it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -28,6 +29,7 @@ _CLIMB = 3  # levels up to what is kept of a coarse level for all that lies belo
 _SQUARES = 6  # of these above one another: from there on what is kept is sparser (`from_afar`)
 _LENT = 4  # tiles that the cache holds as parts of one array, at most
 _BAND = 64  # rows worked on at a time, so that a band of all planes stays in the cache of the processor
+_BAND_BYTES = 1 << 19  # of few planes so many rows more
 
 
 def evaluate(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None = None) -> Planes:
@@ -99,7 +101,7 @@ def _evaluated(
                 if _nothing_below(pyramid, level, Column(rects[0]), cache, squares):
                     return rects[0], None
                 value = _square(pyramid, around, cache, squares - 1)
-            if _is_empty(pyramid, around, value, parents):
+            if _is_empty(pyramid, around, value, parents, rects):
                 return rects[0], None
             break
         if level - k >= _CLOSE:
@@ -130,12 +132,18 @@ def _nothing_below(pyramid: Pyramid, level: int, column: Column, cache: TileCach
     return around is not None and _is_empty(pyramid, around, _square(pyramid, around, cache, squares - 1), above)
 
 
-def _is_empty(pyramid: Pyramid, around: Square, value: Planes | None, rect: Rect) -> bool:
-    """Tells whether nothing is in a rectangle of a square, nor in all that lies below it."""
+def _is_empty(
+    pyramid: Pyramid, around: Square, value: Planes | None, rect: Rect, below: Sequence[Rect] | None = None
+) -> bool:
+    """Tells whether nothing is in a rectangle of a square, nor in all that lies below it; `below`: nor in these
+    rectangles of the levels below it, the finest first."""
     finest = pyramid.finest
-    if finest is None or finest > around.level:
+    if value is not None and value.data[:, *rect.slices(around.rect)].any():
         return False
-    return value is None or not value.data[:, *rect.slices(around.rect)].any()
+    if finest is None or finest <= around.level:
+        return True
+    levels = enumerate(reversed(below or ()), around.level + 1)
+    return below is not None and not any(pyramid.has_records(k, inner) for k, inner in levels)
 
 
 def _square(pyramid: Pyramid, around: Square, cache: TileCache, squares: int) -> Planes | None:
@@ -175,8 +183,9 @@ def step(
     top = (rect.y0 >> 1) - 1 - parent_at.y0
     left = (rect.x0 >> 1) - 1 - parent_at.x0
     laid = [(placed(key, record.rect), record, plane_map(record.inks, inks)) for key, record in records]
-    for first in range(0, rect.height, _BAND):
-        last = min(first + _BAND, rect.height)
+    rows = max(_BAND, _BAND_BYTES // (4 * len(out) * rect.width) & ~1)
+    for first in range(0, rect.height, rows):
+        last = min(first + rows, rect.height)
         if parent is not None:
             expand_into(parent.data, top, left, sources, out, first, last, pyramid.step)
         band = Rect(rect.x0, rect.y0 + first, rect.x1, rect.y0 + last)
@@ -289,7 +298,7 @@ def _from_cache(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | Non
 
 
 def _keep_tiles(pyramid: Pyramid, level: int, rect: Rect, value: Planes | None, cache: TileCache, lent: bool) -> None:
-    keys = [key for key in rect.tiles(level) if rect.intersect(key.rect) == key.rect]
+    keys = [key for key in rect.tiles(level) if rect.holds(key.rect)]
     if value is None or not lent or rect.area != len(keys) * TILE * TILE or len(keys) > _LENT:
         for key in keys:
             cache.keep(pyramid, key, None if value is None else value.cut(*key.rect.slices(rect)))

@@ -17,6 +17,7 @@ from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.column import Clip
 from engine.texture.planes import COLOURS, Planes
 
+_FEW = 4  # squares that are worked out at once
 _FULL = 1.34  # times as large a rectangle may be as what is worked out of it
 _SCREEN_TILE = 2 * TILE  # pixels along a side of what a tile of the screen shows, at most, that lies elsewhere
 _WORTH = 48 * 48  # pixels of a rectangle from which on whole tiles are worked out for it
@@ -54,7 +55,7 @@ def kept_planes(layer: Layer, level: int, rect: Rect, cache: TileCache) -> np.nd
         return covered(None if whole is None else whole.rgba, layer.growth, level, rect)
     found = {key: cache.view(pyramid, key) for key in rect.tiles(level)}
     if beside and not any(known for known, _ in found.values()):
-        inner = [_mark(key) for key in found if rect.intersect(key.rect) == key.rect]
+        inner = [_mark(key) for key in found if rect.holds(key.rect)]
         if not any(cache.view(pyramid, mark)[0] for mark in inner):
             return covered(_by_itself(pyramid, Clip(level, rect), inner, cache), layer.growth, level, rect)
     for block in _blocks([key for key, (known, _) in found.items() if not known]):
@@ -111,11 +112,13 @@ def _spans(first: int, last: int) -> list[tuple[int, slice, slice]]:
 
 
 def _blocks(missing: list[TileKey]) -> list[Rect]:
-    """Returns squares of 2 x 2 tiles that hold some tiles; one rectangle where they fill most of it."""
+    """Returns squares of 2 x 2 tiles that hold some tiles; one rectangle where they fill most of it, and are few:
+    of many, most may hold nothing."""
     blocks = {(key.x // 2, key.y // 2) for key in missing}
     squares = [Rect.at(x * 2 * TILE, y * 2 * TILE, 2 * TILE, 2 * TILE) for x, y in blocks]
     whole = functools.reduce(Rect.union, squares, Rect(0, 0, 0, 0))
-    return [whole] if 0 < whole.area <= _FULL * sum(square.area for square in squares) else squares
+    few = len(squares) <= _FEW
+    return [whole] if few and 0 < whole.area <= _FULL * sum(square.area for square in squares) else squares
 
 
 def covered(paint: np.ndarray | None, growth: Growth, level: int, rect: Rect) -> np.ndarray | None:

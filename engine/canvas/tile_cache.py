@@ -46,7 +46,7 @@ class Square(NamedTuple):
     def of(cls, level: int, rect: Rect) -> Square | None:
         """Returns one that holds a rectangle; None where that is too large for it."""
         found = cls(level, (rect.x0 + rect.x1) // 2 // _SQUARE, (rect.y0 + rect.y1) // 2 // _SQUARE, _MARGIN)
-        return found if found.rect.union(rect) == found.rect else None
+        return found if found.rect.holds(rect) else None
 
 
 CacheKey = TileKey | Square | Clip

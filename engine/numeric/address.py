@@ -59,7 +59,18 @@ class Rect(NamedTuple):
 
     def intersect(self, other: Rect) -> Rect:
         """Gives the pixels of both; what is empty if they do not meet."""
-        return Rect(max(self.x0, other.x0), max(self.y0, other.y0), min(self.x1, other.x1), min(self.y1, other.y1))
+        x0, y0, x1, y1 = self
+        left, top, right, bottom = other
+        return Rect(
+            left if left > x0 else x0,
+            top if top > y0 else y0,
+            right if right < x1 else x1,
+            bottom if bottom < y1 else y1,
+        )
+
+    def holds(self, other: Rect) -> bool:
+        """Tells whether all corners of a rectangle lie within this one."""
+        return self.x0 <= other.x0 and self.y0 <= other.y0 and other.x1 <= self.x1 and other.y1 <= self.y1
 
     def meets(self, other: Rect) -> bool:
         """Tells whether both share a pixel."""

@@ -140,28 +140,37 @@ class Similarity:
 
     def shown(self, rect: Rect, level: int, at_level: int) -> Rect:
         """Returns the pixels of `at_level` that meet what a rectangle of the source's `level` is shown as."""
+        corners, e = self._corners(rect, level)
+        xs, ys, by = [x for x, _ in corners], [y for _, y in corners], at_level - e
+        return Rect(_floor(min(xs), by), _floor(min(ys), by), _ceil(max(xs), by), _ceil(max(ys), by))
+
+    def _corners(self, rect: Rect, level: int) -> tuple[list[tuple[int, int]], int]:
+        """Returns where corners of a rectangle of the source's `level` are shown, as (x, y) and e: (x + iy) 2^-e."""
         places = [(rect.x0, rect.y0), (rect.x1, rect.y1)]  # of quarter turns, two opposite corners tell
         if self.quarter is None:
             places += [(rect.x0, rect.y1), (rect.x1, rect.y0)]
-        corners = [self(Dyadic.of(*place, level)) for place in places]
-        xs, ys = [(p.x, at_level - p.e) for p in corners], [(p.y, at_level - p.e) for p in corners]
-        return Rect(
-            min(_floor(*x) for x in xs), min(_floor(*y) for y in ys),
-            max(_ceil(*x) for x in xs), max(_ceil(*y) for y in ys),
-        )  # fmt: skip
+        c, t, sign = self.c, self.t, -1 if self.mirror else 1
+        e = max(c.e + level, t.e)
+        up, left, top = e - c.e - level, t.x << e - t.e, t.y << e - t.e
+        return [((c.x * x - c.y * sign * y << up) + left, (c.x * sign * y + c.y * x << up) + top) for x, y in places], e
 
     def back(self, twice: tuple[int, int], level: int, to_level: int, bits: int) -> tuple[int, int]:
         """Returns the place of the source that is shown at `twice` / 2 pixels of `level`: in 2^-bits pixels of
         `to_level`, rounded down."""
-        w = (Dyadic.of(*twice, level + 1) + -self.t) * self.c.conjugate
-        n, e = self.squared
-        up = e - w.e + to_level + bits
-        y = -w.y if self.mirror else w.y
-        return ((w.x << up) // n, (y << up) // n) if up >= 0 else (w.x // (n << -up), y // (n << -up))
+        c, t, (n, e) = self.c, self.t, self.squared
+        fine = max(level + 1, t.e)
+        u = (twice[0] << fine - level - 1) - (t.x << fine - t.e)
+        v = (twice[1] << fine - level - 1) - (t.y << fine - t.e)
+        x, y = u * c.x + v * c.y, v * c.x - u * c.y
+        up = e - fine - c.e + to_level + bits
+        y = -y if self.mirror else y
+        return ((x << up) // n, (y << up) // n) if up >= 0 else (x // (n << -up), y // (n << -up))
 
     def box(self, rect: Rect, level: int, to_level: int, margin: int) -> Rect:
         """Returns the pixels of the source's `to_level` that are shown in a rectangle of `level`, and `margin` more."""
-        places = [(2 * x, 2 * y) for x in (rect.x0, rect.x1) for y in (rect.y0, rect.y1)]
+        places = [(2 * rect.x0, 2 * rect.y0), (2 * rect.x1, 2 * rect.y1)]  # as in `shown`
+        if self.quarter is None:
+            places += [(2 * rect.x0, 2 * rect.y1), (2 * rect.x1, 2 * rect.y0)]
         corners = [self.back(place, level, to_level, 0) for place in places]
         xs, ys = [x for x, _ in corners], [y for _, y in corners]
         return Rect(min(xs) - margin, min(ys) - margin, max(xs) + margin + 1, max(ys) + margin + 1)

@@ -38,7 +38,7 @@ class Turns:
         self._found = [outer.unclipped.of(placement)]
         self._nested = self._is_nested()
         self._bounds: dict[tuple[int, int], Rect] = {}
-        self._starts: dict[int, int] = {}  # by level, where the last search ended
+        self._starts: dict[tuple[SourcePart, int], int] = {}  # by level of a part, where the last search ended
         self._empty: tuple[_States, SourcePart | None] = (), None
         self._whole: tuple[_States, SourcePart | None] = (), None
         self._lock = threading.Lock()
@@ -79,9 +79,7 @@ class Turns:
         lie in one another."""
         if not self._nested:
             return 0
-        count = self._count(self._part, level, rect, self._starts.get(level, -1))
-        self._starts[level] = count
-        return max(0, count - 1)
+        return max(0, self._count(self._part, level, rect) - 1)
 
     def empty(self, above: Sequence[Layer], level: int, rect: Rect) -> int:
         """Returns how many turns, from the outermost on, of which layers show nothing in a rectangle."""
@@ -94,7 +92,7 @@ class Turns:
             finest = max((layer.pyramid.finest or 0 for layer in stored), default=0)
             part = self._around(finest, lambda at, near: not any(_has_paint(layer, at, near) for layer in stored))
             self._empty = states, part
-        return 0 if part is None else self._count(part, level, rect, -1)
+        return 0 if part is None else self._count(part, level, rect)
 
     def whole(self, mask: Mask, level: int, rect: Rect) -> int:
         """Returns how many turns, from the outermost on, of which a mask around them hides nothing in a rectangle."""
@@ -107,7 +105,7 @@ class Turns:
             finest = (pyramid.finest or 0) - mask.moved.levels
             part = self._around(finest, lambda at, near: _hides_nothing(mask, at, near))
             self._whole = states, part
-        return 0 if part is None else self._count(part, level, rect.grown(_AROUND), -1)
+        return 0 if part is None else self._count(part, level, rect.grown(_AROUND))
 
     def _around(self, finest: int, alike: Callable[[int, Rect], bool]) -> SourcePart | None:
         """Returns a square around the place that all turns share that is `alike`, if there is one."""
@@ -131,18 +129,26 @@ class Turns:
         first = level + side + self._found[0].similarity.log_scale
         return max(0, int(-first / self._placement.pose.similarity.log_scale)) + 3
 
-    def _count(self, part: SourcePart, level: int, rect: Rect, near: int) -> int:
+    def _count(self, part: SourcePart, level: int, rect: Rect) -> int:
         """Returns how many turns there are in which a part holds all of a rectangle, all others coming later."""
 
         def holds(turn: int) -> bool:
             return Clip(part, self[turn].similarity).holds(level, rect)
 
-        if near > 0 and holds(near - 1) and not holds(near):
-            return near
         low, high = 0, self._most(level + part.level - self._part.level) + 1
+        near, wide = self._starts.get((part, level), 0), 1
+        while low < near < high - 1:  # it is near the one before, as a rule
+            if holds(near - 1):
+                low, near = near, near + wide
+            else:
+                high, near = near, near - wide
+            wide *= 2
         while low < high - 1:
             half = (low + high) // 2
             low, high = (half, high) if holds(half - 1) else (low, half)
+        if len(self._starts) > _MOST:
+            self._starts = {}
+        self._starts[part, level] = low
         return low
 
 

@@ -142,7 +142,11 @@ def lying_above(
     while not part.empty:
         nothing = layers is not None and unpainted.empty(layers, level, part, turns[turn].unclipped)
         drawn = None if nothing else _cut(turns, turn, level, part, draw(turn, part, None))
-        if drawn is not None:
+        if drawn is not None and front is None and part == rect:
+            front = drawn
+            if hides(front):
+                break
+        elif drawn is not None:
             front = np.zeros((4, rect.height, rect.width), np.float32) if front is None else front
             if lay_behind(front[:, *part.slices(rect)], np.ascontiguousarray(drawn)):
                 break
