@@ -15,7 +15,7 @@ import numpy as np
 from engine.numeric.address import Rect
 from engine.numeric.detail import add_expanded, cut, parents, subtract_expanded
 from engine.numeric.grid import FINE_STEP, snapped
-from engine.numeric.kernel import Array, inner, kernel
+from engine.numeric.kernel import Array, inlined, inner, kernel
 from engine.numeric.pyramid import expand_into
 from engine.texture.learnt.kinds import LOOKED_ROUND
 from engine.texture.learnt.maps import Maps, maps_of
@@ -24,7 +24,9 @@ from engine.texture.learnt.refinement import Learning, channels_of
 LOOKED_ABOUT = 8  # of the example's own pixels, around a place: what counts for what is shown below it
 _NEAR = 3  # pixels from which colours go on beyond the outline
 _ENOUGH, _FAINT = np.float32(0.5), np.float32(1.0 / 64.0)
+_LEAST = np.float32(1e-9)
 _ONE, _ZERO, _QUARTER = np.float32(1.0), np.float32(0.0), np.float32(0.25)
+Four = tuple[np.float32, np.float32, np.float32, np.float32]
 
 
 def has_alpha(learning: Learning) -> bool:
@@ -95,42 +97,60 @@ def _centre(coarse: Array, out: Array) -> None:
     makes them as much less different from it as lets them stay within 0..1, colours below alpha, the last of four;
     where alpha changes by that, so do they."""
     channels, height, width = coarse.shape
-    four, most, before = np.empty(4, np.float32), np.ones(4, np.float32), np.ones(4, np.float32)
+    most, before = np.ones(4, np.float32), np.ones(4, np.float32)
     for y in range(height - 2):
         for x in range(width - 2):
             most[:] = _ONE
+            same, alpha = True, coarse[channels - 1, y + 1, x + 1]
             for n in range(channels):
                 c = channels - 1 - n
-                block, mean = out[c, 2 * y : 2 * y + 2, 2 * x : 2 * x + 2], coarse[c, y + 1, x + 1]
-                four[0], four[1], four[2], four[3] = block[0, 0], block[0, 1], block[1, 0], block[1, 1]
+                a, b = out[c, 2 * y, 2 * x], out[c, 2 * y, 2 * x + 1]
+                d, e = out[c, 2 * y + 1, 2 * x], out[c, 2 * y + 1, 2 * x + 1]
                 if channels == 4 and c == 3:
-                    before[:] = four
-                elif channels == 4:
-                    for k in range(4):
-                        four[k] *= most[k] / max(before[k], _FAINT)
-                _centre_four(four, mean, most, coarse[channels - 1, y + 1, x + 1])
-                block[0, 0], block[0, 1], block[1, 0], block[1, 1] = four[0], four[1], four[2], four[3]
+                    before[0], before[1], before[2], before[3] = a, b, d, e
+                elif not same:
+                    a, b = a * _times(most, before, 0), b * _times(most, before, 1)
+                    d, e = d * _times(most, before, 2), e * _times(most, before, 3)
+                a, b, d, e = _centred((a, b, d, e), coarse[c, y + 1, x + 1], most, alpha)
+                out[c, 2 * y, 2 * x], out[c, 2 * y, 2 * x + 1] = a, b
+                out[c, 2 * y + 1, 2 * x], out[c, 2 * y + 1, 2 * x + 1] = d, e
                 if channels == 4 and c == 3:
-                    most[:] = four
+                    most[0], most[1], most[2], most[3] = a, b, d, e
+                    same = bool(a == before[0] and b == before[1] and d == before[2] and e == before[3])
+                    same = same and bool(min(min(a, b), min(d, e)) >= _FAINT)
+
+
+@inlined
+def _times(most: Array, before: Array, k: int) -> np.float32:
+    found: np.float32 = most[k] / max(before[k], _FAINT)
+    return found
+
+
+@inlined
+def _centred(four: Four, mean: np.float32, most: Array, alpha: np.float32) -> Four:
+    apart = ((four[0] + four[1]) + (four[2] + four[3])) * _QUARTER
+    a, b, d, e = four[0] - apart, four[1] - apart, four[2] - apart, four[3] - apart
+    if mean > min(min(most[0], most[1]), min(most[2], most[3])):  # there is less alpha: as much colour as alpha
+        base = max(alpha, _LEAST)
+        a, b = min(mean * (most[0] / base), most[0]), min(mean * (most[1] / base), most[1])
+        d, e = min(mean * (most[2] / base), most[2]), min(mean * (most[3] / base), most[3])
+    else:
+        part = min(
+            min(_part(a, mean, most[0]), _part(b, mean, most[1])), min(_part(d, mean, most[2]), _part(e, mean, most[3]))
+        )
+        a, b = min(max(mean + part * a, _ZERO), most[0]), min(max(mean + part * b, _ZERO), most[1])
+        d, e = min(max(mean + part * d, _ZERO), most[2]), min(max(mean + part * e, _ZERO), most[3])
+    return a, b, d, e
 
 
 @inner
-def _centre_four(four: Array, mean: np.float32, most: Array, alpha: np.float32) -> None:
-    apart = ((four[0] + four[1]) + (four[2] + four[3])) * _QUARTER
-    part = _ONE
-    for k in range(4):
-        four[k] -= apart
-        if mean > most[k]:  # where there is less alpha than that: as much colour as alpha
-            part = -_ONE
-        elif part > _ZERO and four[k] > most[k] - mean:
-            part = min(part, (most[k] - mean) / four[k])
-        elif part > _ZERO and -four[k] > mean:
-            part = min(part, mean / -four[k])
-    for k in range(4):
-        if part < _ZERO:
-            four[k] = min(mean * (most[k] / max(alpha, np.float32(1e-9))), most[k])
-        else:
-            four[k] = min(max(mean + part * four[k], _ZERO), most[k])
+def _part(apart: np.float32, mean: np.float32, most: np.float32) -> np.float32:
+    """How much of a difference from a mean stays within 0 and the most."""
+    if apart > most - mean:
+        return (most - mean) / apart
+    if -apart > mean:
+        return mean / -apart
+    return _ONE
 
 
 @kernel

@@ -57,7 +57,7 @@ class Learning:
         """Returns an octave below a picture: as `added`; `above` gives that picture."""
         even = rect.evened()
         added, coarse = self._below(octave, even, above)
-        out = np.negative(added)
+        out = np.negative(added, out=added)
         subtract_expanded(out, coarse)
         return cut(np.negative(out, out=out), rect, even)
 

@@ -1,5 +1,6 @@
 """What a region painted with an example shows below the example's own pixels, where its detail is learnt."""
 
+import hashlib
 from dataclasses import replace
 from functools import cache
 
@@ -122,3 +123,15 @@ def test_flattened_it_looks_the_same_as_far_as_that_is_not_too_much(plots, kind,
             there = (inner if kind == "opaque" and level > own else Rect.at(-35, -35, 70, 70)).zoomed(level)
             seen, paint = (layer_planes(one, level, there)[:4] for one in (layer, flat))
             assert np.abs(seen - paint).max() < (1e-9 if level == finest else 6e-5)
+
+
+PIXELS = {"opaque": "b392df7b181e34e1", "alpha": "7cd1993cbf6827ee", "alpha+1": "bccce631073e1b43"}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_pixels_stay(plots, kind):
+    digest = hashlib.sha256()
+    for octave in (1, 2):
+        level = len(example(kind).finer) + octave
+        digest.update(growths.planes(plots[kind], level, Rect.at(-20, -34, 60, 70).zoomed(level)).tobytes())
+    assert digest.hexdigest()[:16] == PIXELS[kind]
