@@ -1,5 +1,5 @@
-"""Draws structures.webp: a dozen kinds of examples, and what is made of each by histograms, by statistics, with objects
-and in full layout; beside each what is learnt of its detail, 8 times as near.
+"""Draws structures.webp: a dozen kinds of examples, and what is made of each by histograms, by statistics, with
+objects, in full layout and of large pieces; beside each what is learnt of its detail, 8 times as near.
 
 python palettes/pictures/make_structures.py
 """
@@ -54,6 +54,7 @@ COLUMNS = {
     "statistics": _MATCHED | {"structure": "statistics"},
     "objects": _MATCHED | {"structure": "objects"},
     "full layout": _MATCHED | {"structure": "full"},
+    "pieces": _MATCHED | {"structure": "pieces"},
 }
 _SHEET, _INK = "#faf0e6", "#3a2e26"
 
