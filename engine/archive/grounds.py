@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -103,10 +103,13 @@ def restored(found: GroundEntry, png: bytes, where: str, limits: Limits) -> Pyra
     return replace(pyramid, levels=levels)
 
 
-def with_tiles(ground: Pyramid, levels: dict[int, dict[tuple[int, int], Record]]) -> Pyramid:
-    """Returns a ground, or nothing, with what was painted since in its place."""
+def with_tiles(ground: Pyramid, levels: Mapping[int, Mapping[tuple[int, int], Record]]) -> Pyramid:
+    """Returns a ground, or nothing, with what was painted since in its place; records by pages are of its depth."""
     stored = ground.levels
     for level, tiles in levels.items():
+        if isinstance(tiles, PagedLevel) and level not in stored:
+            stored = stored.set(level, tiles)
+            continue
         editable = level_of(stored.get(level, {})).mutate()
         for place, record in tiles.items():
             editable.set(place, record if record.depth == ground.depth else replace(record, depth=ground.depth))

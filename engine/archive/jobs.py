@@ -12,7 +12,7 @@ import numpy as np
 from engine.archive.implied import Tile, without
 from engine.archive.manifest import Pack
 from engine.archive.packing import grouped, pack
-from engine.archive.shelf import as_filed
+from engine.archive.shelves.shelf import as_filed
 from engine.numeric.address import TileKey
 from engine.numeric.arithmetic import COARSE
 from engine.painting.cascade import Cascade

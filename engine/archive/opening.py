@@ -25,7 +25,8 @@ from engine.archive.others.lost_sources import picture_paint
 from engine.archive.packing import unpack
 from engine.archive.plot_files import Mark, Nursery
 from engine.archive.selected import selection_files
-from engine.archive.shelf import Shelf, shelved
+from engine.archive.shelves.filed_pages import Gathered
+from engine.archive.shelves.shelf import Filed, Shelf, shelved
 from engine.canvas import layers
 from engine.canvas.layers import Group
 from engine.canvas.node_checks import LayerError
@@ -36,6 +37,7 @@ from engine.files.limits import LIMITS, Limits, memory_cap
 from engine.files.stack_xml import parse_stack
 from engine.files.strict_json import loads
 from engine.files.zip_reader import ZipArchive
+from engine.keeping import memory
 from engine.painting.recording import Recording, read_from
 from engine.painting.rendering import Progress, Stop, check_cancelled
 from engine.painting.value import Beginning
@@ -45,6 +47,7 @@ from engine.texture.image import ImageSource
 from engine.texture.table import from_key
 
 AHEAD = 4  # packs being unpacked at a time
+_FILE_PART = 4  # of the budget of memory: what a file holds of layers stays in memory if it is no more
 OTHER = "the textures of this version are not quite those it was saved with: the colour of {count} tiles differs{why}"
 REGROWN = (
     "what was painted with examples is grown anew, and may look otherwise than it did: this version grows them"
@@ -107,6 +110,7 @@ class _Opening:
         self._total = 1
         self._done = 0
         self._decoded = 0  # bytes of tiles that are not decoded later
+        self._away = False  # whether what layers hold goes to disk as it is read
 
     def run(self) -> Opened:
         try:
@@ -145,7 +149,9 @@ class _Opening:
         packs += [p for selection in manifest.selections for p in selection.packs]
         packs += [p for entry in manifest.pictures.values() for p in entry.packs]
         self._total = sum(p.plain for p in packs) + 1
-        self._check_room(_most_at_once(manifest))
+        stored = _stored(manifest)
+        self._away = stored > memory.budget() // _FILE_PART
+        self._check_room(_most_at_once(manifest) + (0 if self._away else stored))
         sources = {sha: self._picture(entry, members) for sha, entry in manifest.pictures.items()}
         root, other = self._layers(manifest, members, sources)
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
@@ -189,13 +195,18 @@ class _Opening:
                 for layer in list(layers.layers(root)):
                     check_cancelled(self._cancelled)
                     shelf = Shelf()
-                    tiles = shelved(list(self._tiles(manifest.packs[layer.id], members, sources, at_once=False)), shelf)
+                    tiles = self._tiles(manifest.packs[layer.id], members, sources, at_once=False)
+                    gathered, apart = Gathered(self._archive.name), list[Coded]()
+                    for tile in shelved(tiles, shelf):
+                        gathered.add(*tile[:2])
+                        if not isinstance(tile[1].held, Filed):
+                            apart.append(tile)
                     ground = laid.pop(layer.id).result() if layer.id in laid else layer.pyramid
                     if layer.id in manifest.pictured:
                         found = picture_paint(self._archive, layer, manifest.frame, self._limits, self._cancelled)
                         ground = found or ground
-                    pyramid = shelf.laid(grounds.with_tiles(ground, self._levels(tiles)))
-                    coloured.append(colours.submit(_coloured, shelf, pyramid, tiles, squares.map))
+                    pyramid = shelf.laid(grounds.with_tiles(ground, gathered.levels(ground.depth)))
+                    coloured.append(colours.submit(_coloured, shelf, pyramid, apart, squares.map))
                     root = layers.with_pyramid(root, layer.name, pyramid)
                 return root, sum(future.result() for future in coloured)
             finally:
@@ -227,14 +238,8 @@ class _Opening:
         """Returns the picture that a layer began with, laid down again."""
         return grounds.restored(found, members.ground(found.member), members.where(found.member), self._limits)
 
-    def _levels(self, tiles: Sequence[Coded]) -> dict[int, dict[tuple[int, int], Record]]:
-        levels: dict[int, dict[tuple[int, int], Record]] = {}
-        for key, record, _ in tiles:
-            level = levels.setdefault(key.level, {})
-            if (key.x, key.y) in level:
-                raise FileError(self._archive.name, f"tile {key.x}, {key.y} of level {key.level} is there twice")
-            level[key.x, key.y] = record
-        return levels
+    def _levels(self, tiles: Iterable[Coded]) -> dict[int, Mapping[tuple[int, int], Record]]:
+        return Gathered(self._archive.name, (tile[:2] for tile in tiles)).levels(0)
 
     def _picture(self, entry: PictureEntry, members: Members) -> ImageSource:
         parts = [(key, record) for key, record, _ in self._tiles(entry.packs, members, {})]
@@ -250,7 +255,7 @@ class _Opening:
                 for pack in packs:
                     check_cancelled(self._cancelled)
                     stored = members.stored(pack.member)
-                    waiting.append((pack, pool.submit(_unpack, pack, stored, sources, at_once)))
+                    waiting.append((pack, pool.submit(self._unpack, pack, stored, sources, at_once)))
                     if len(waiting) > AHEAD:
                         yield from self._next(waiting)
                 while waiting:
@@ -258,6 +263,15 @@ class _Opening:
             finally:
                 for _, future in waiting:
                     future.cancel()
+
+    def _unpack(self, pack: Pack, stored: Stored, sources: Mapping[str, ImageSource], at_once: bool) -> list[Coded]:
+        data, told = stored.checked(), (pack.tiles, pack.plain)
+        tiles = unpack(data, stored.where, lambda key: from_key(key, sources), told, at_once)
+        if self._away:
+            for _, record, _ in tiles:
+                if isinstance(record.held, Filed):
+                    record.held.block.put_away()
+        return tiles
 
     def _next(self, waiting: deque[tuple[Pack, Future[list[Coded]]]]) -> list[Coded]:
         pack, future = waiting.popleft()
@@ -280,22 +294,21 @@ class _Opening:
         return read_from(stream, f"{self._archive.name}: member {RECORDING}", Path(self._archive.name).parent), ()
 
 
+def _stored(manifest: Manifest) -> int:
+    """Returns the bytes of a file in which the tiles of layers lie."""
+    return sum(manifest.members.get(p.member, (0, ""))[0] for group in manifest.packs.values() for p in group)
+
+
 def _most_at_once(manifest: Manifest) -> int:
-    """Returns the bytes that a painting takes as soon as it is open: what is decoded then, and of the layers, whose
-    tiles are decoded later, the bytes of the file and the largest pack.  Older formats are counted as they are read."""
+    """Returns the bytes that a painting takes as soon as it is open, beside those of the file: what is decoded then,
+    and of the layers, whose tiles are decoded later, the largest pack.  Older formats are counted as they are read."""
     later = [p for group in manifest.packs.values() for p in group]
     now: list[Pack] = [p for selection in manifest.selections for p in selection.packs]
     now += [p for picture in manifest.pictures.values() for p in picture.packs]
-    stored = sum(manifest.members.get(p.member, (0, ""))[0] for p in later)
-    return sum(p.plain for p in now) + stored + max((p.plain for p in later), default=0) + manifest.grown_bytes()
+    return sum(p.plain for p in now) + max((p.plain for p in later), default=0) + manifest.grown_bytes()
 
 
 def _coloured(shelf: Shelf, pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterable[int]]) -> int:
     """Puts colour back into tiles that are there, and counts those of another colour than they had."""
     there = [tile for tile in tiles if isinstance(tile[1].held, np.ndarray)]
     return restored(pyramid, there, run) + shelf.others()
-
-
-def _unpack(pack: Pack, stored: Stored, sources: Mapping[str, ImageSource], at_once: bool) -> list[Coded]:
-    data = stored.checked()
-    return unpack(data, stored.where, lambda key: from_key(key, sources), (pack.tiles, pack.plain), at_once)

@@ -27,7 +27,7 @@ from engine.archive import tilecode
 from engine.archive.earlier import packs_of_format_1, packs_of_format_2
 from engine.archive.implied import ABOVE, MOST, TERM_CAP, Coded, Implied, Tile
 from engine.archive.packfault import PackFault, need
-from engine.archive.shelf import Block, Filed, block_at
+from engine.archive.shelves.shelf import Block, Filed, block_at
 from engine.canvas.store import Record
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
@@ -345,22 +345,25 @@ def _put_off(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Fo
         yield from _block(stored, plain, run, form)
         return
     need(form.places(_inflated(stored, plain), [head.shape for head in run]) is not None, *_OTHERS)
-    block = Block(partial(_clipped, stored, plain, run, form), len(run), plain, stored)
+    kept = np.array([(*head.shape, head.bits) for head in run])
+    kept = kept.astype(np.min_scalar_type(int(kept.max(initial=0))))  # there may be millions of tiles
+    block = Block(partial(_clipped, plain, kept, form), len(run), plain, stored)
     for number, head in enumerate(run):
         held = Filed(block, number, head.bits)
         yield head.key, Record(head.rect, held, head.inks, 0), head.implied
 
 
-def _clipped(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Format) -> list[np.ndarray]:
-    """Returns what a block holds that was checked but for the largest residual, within what may be."""
-    tiles = [np.empty(head.shape, KINDS[head.bits]) for head in run]
+def _clipped(plain: int, kept: np.ndarray, form: _Format, stored: bytes | memoryview) -> list[np.ndarray]:
+    """Returns what a block holds that was checked but for the largest residual, within what may be; `kept`: planes,
+    height, width and bits of each tile."""
+    tiles = [np.empty(shape, KINDS[bits]) for *shape, bits in kept.tolist()]
     if form.decoded(_inflated(stored, plain), tiles) >= 2 * RESIDUAL_CAP:
         for data in tiles:
             np.clip(data, -RESIDUAL_CAP, RESIDUAL_CAP, out=data)
     return tiles
 
 
-def _inflated(stored: memoryview, plain: int) -> np.ndarray:
+def _inflated(stored: bytes | memoryview, plain: int) -> np.ndarray:
     raw = np.empty(plain, np.uint8)
     stream = Inflated(iter([bytes(stored)]))
     try:

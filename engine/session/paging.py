@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from engine.archive.shelves.filed_pages import blocks_of
 from engine.canvas import growth as growths
 from engine.canvas.layers import Group, layers
 from engine.canvas.rising.paged_level import PagedLevel
@@ -33,10 +34,10 @@ _GROWN = 32 << 20  # bytes that the process grows by before all are looked throu
 class Paging:
     """Frees bytes of the records of a painting.  It belongs to the session's thread.
 
-    First records of levels that have many go to disk, by pages, as far as they were stored long ago.  Then it codes
-    what was stored long ago, of the levels farthest from the one that is seen; then what was stored of late; then what
-    is coded goes to disk; at last what was painted with examples is coded, and goes there.  `wanted`: bytes that are
-    still to be freed.
+    First records of levels that have many go to disk, by pages, as far as they were stored long ago, and what a file
+    brought.  Then it codes what was stored long ago, of the levels farthest from the one that is seen; then what was
+    stored of late; then what is coded goes to disk; at last what was painted with examples is coded, and goes there.
+    `wanted`: bytes that are still to be freed.
 
     All records of one state of the painting are looked through before those of another are, and then not until the
     process has grown: where nearly all is small already, each look finds little.
@@ -80,6 +81,8 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
             stored = pyramid.levels[k]
             if isinstance(stored, PagedLevel):
                 yield from (put_page_away(page, _old_until(pyramid)) for page in stored.pages.values())
+    for pyramid in held:
+        yield from (block.put_away() for block in blocks_of(pyramid))
     for late in (False, True):
         for pyramid in held:
             old = _old_until(pyramid)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from engine import spare_memory
-from engine.archive.shelf import DECODED
+from engine.archive.shelves.shelf import DECODED
 from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned

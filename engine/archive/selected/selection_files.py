@@ -176,7 +176,7 @@ def with_tiles_of(
     entries: Sequence[SelectionEntry],
     grid: int,
     tiles: Callable[[Packs], Iterator[Coded]],
-    levels: Callable[[Sequence[Coded]], Mapping[int, dict[tuple[int, int], Record]]],
+    levels: Callable[[Sequence[Coded]], Mapping[int, Mapping[tuple[int, int], Record]]],
 ) -> Chosen:
     """Returns selections of a file; `tiles` reads packs, `levels` lays them out.  One with ink, which none has but
     a heap, is refused by FieldError."""
@@ -186,7 +186,7 @@ def with_tiles_of(
         if entry.heaps is None and any(record.inks or implied for _, record, implied in found):
             raise FieldError("selections", "ink", "tiles without ink")
         own = FINE if entry.heaps is not None else grid
-        pyramid = with_tiles(Pyramid(grid=own, commits=entry.commits), dict(levels(found)))
+        pyramid = with_tiles(Pyramid(grid=own, commits=entry.commits), levels(found))
         if entry.heaps is not None:
             heaps[entry.heaps] = heaps.get(entry.heaps, NO_HEAPS).set(entry.unit, pyramid)
         elif entry.masks is not None:

@@ -79,11 +79,9 @@ class Page(Generic[R]):
         """Yields the places of all records of the page at a place."""
         away, changed = self.held
         bits = 0 if away is None else away.bits
-        x, y = page[0] << _PAGE_SIDE, page[1] << _PAGE_SIDE
         while bits:
-            at = (bits & -bits).bit_length() - 1
+            place = place_in(page, (bits & -bits).bit_length() - 1)
             bits &= bits - 1
-            place = x + (at & _IN_PAGE), y + (at >> _PAGE_SIDE)
             if place not in changed:
                 yield place
         yield from (place for place, record in changed.items() if record is not None)
@@ -259,6 +257,11 @@ class _Changed(NamedTuple, Generic[R]):
 def page_of(place: TilePlace) -> TilePlace:
     """Returns the place of the page in which a tile lies."""
     return place[0] >> _PAGE_SIDE, place[1] >> _PAGE_SIDE
+
+
+def place_in(page: TilePlace, number: int) -> TilePlace:
+    """Returns the place of the tile whose bit has this number in the page at a place."""
+    return (page[0] << _PAGE_SIDE) + (number & _IN_PAGE), (page[1] << _PAGE_SIDE) + (number >> _PAGE_SIDE)
 
 
 def bit_of(place: TilePlace) -> int:

@@ -10,17 +10,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.archive.shelf import Filed
+from engine.archive.shelves.filed_pages import PAGES_READ
+from engine.archive.shelves.shelf import Filed
 from engine.canvas.rising.paged_level import Page, TilePlace, bit_of
 from engine.canvas.store import Record
-from engine.keeping.recent import Recent
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import Rect
 from engine.session.coding.coded_records import CodedData, CodedSheets, coded_alone
 from engine.texture.even_planes import EvenPlanes
 from engine.texture.record import Instance
 
-_READ = 24 << 20  # bytes of pages kept that were asked for
 _FACTS = 10  # int64 that are told of a record, before what it is made of
 _WORTH_PART = 8  # of the records of a page that were changed since: fewer are not worth that the page is written anew
 _PAGE_OVERHEAD = 400 + PLACE_OVERHEAD  # bytes of memory that a page on disk takes, roughly: it may be of one tile
@@ -39,10 +38,10 @@ class RecordsAway:
 
     def records(self) -> Mapping[TilePlace, Record]:
         """Returns them; they are read, if they were not of late.  OSError if they cannot be."""
-        known = _PAGES_READ.get(self)
+        known = PAGES_READ.get(self)
         if known is None:
             known = self._read()
-            _PAGES_READ.keep(self, known, sum(record.nbytes for record in known.values()))
+            PAGES_READ.keep(self, known, sum(record.nbytes for record in known.values()))
         return known
 
     def _read(self) -> dict[TilePlace, Record]:
@@ -58,12 +57,9 @@ class RecordsAway:
         return found
 
 
-_PAGES_READ: Recent[dict[TilePlace, Record]] = Recent(lambda: _READ)
-
-
 def forget_read(by: int) -> None:
     """Forgets so many bytes of pages that were asked for of late, as far as there are any."""
-    _PAGES_READ.shrink(by)
+    PAGES_READ.shrink(by)
 
 
 def put_page_away(page: Page[Record], newest: int) -> int:

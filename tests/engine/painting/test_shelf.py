@@ -11,14 +11,18 @@ from engine.archive import opening, packing, tilecode
 from engine.archive.opening import open_painting
 from engine.archive.packing import pack, unpack
 from engine.archive.saving import Snapshot, save
-from engine.archive.shelf import Block, Filed, Recent
+from engine.archive.shelves import filed_pages
+from engine.archive.shelves.filed_pages import Gathered
+from engine.archive.shelves.shelf import DECODED, Block, Filed, Recent
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.canvas.store import Record
-from engine.files.fault import TooMuch
+from engine.files.fault import FileError, TooMuch
+from engine.keeping.spill import Spilled
 from engine.numeric.address import Rect, TileKey
 from engine.painting.commands import parse
 from engine.session.apply import Painting, apply
+from engine.session.paging import Paging
 from engine.session.session import Session
 
 AREA = Rect(0, 0, 300, 200)
@@ -82,13 +86,25 @@ def test_what_is_more_than_the_machine_has_once_decoded_opens(tmp_path, monkeypa
         open_painting(tmp_path / "a.ora")
 
 
+@pytest.fixture(params=["in memory", "on disk, by pages"])
+def where(request, monkeypatch):
+    """Where what a file holds lies once it is open."""
+    if request.param != "in memory":
+        monkeypatch.setattr(opening, "_FILE_PART", 1 << 60)
+        monkeypatch.setattr(filed_pages, "MANY", 1)
+    return request.param
+
+
 @pytest.mark.parametrize("brushes", [[PLAIN], [PLAIN, ROCK]], ids=["plain", "rock"])
-def test_nothing_is_lost_though_the_file_goes_once_it_is_open(tmp_path, brushes, decoded):
+def test_nothing_is_lost_though_the_file_goes_once_it_is_open(tmp_path, brushes, decoded, where):
     painting, path = painted(*brushes), tmp_path / "a.ora"
     save(path, Snapshot(painting))
     found = open_painting(path).painting
     path.unlink()
     before, opened = sum(decoded), pyramid_of(found)
+    held = [record.held for _, record in opened.all_records()]
+    blocks = {getattr(each, "filed", each).block for each in held}
+    assert any(isinstance(block.held, Spilled) for block in blocks) == (where != "in memory")
     assert sum(1 for _ in opened.all_records()) > before  # what ink implies is tried on one tile
     assert opened.nbytes < pyramid_of(painting).nbytes
     for level in (-2, 0, 1):
@@ -97,10 +113,17 @@ def test_nothing_is_lost_though_the_file_goes_once_it_is_open(tmp_path, brushes,
     mine, theirs = records(painting), records(found)
     assert mine.keys() == theirs.keys()
     assert all(np.array_equal(data, theirs[key]) for key, data in mine.items())
+    paging = Paging()
+    paging.want(found.root, None, 1 << 30)
+    paging.step(1 << 30)
+    assert any(isinstance(block.held, Spilled) for block in blocks)
+    DECODED.shrink(1 << 30)
+    theirs = records(found)
+    assert all(np.array_equal(data, theirs[key]) for key, data in mine.items())
 
 
 @pytest.mark.parametrize("brushes", [[PLAIN], [PLAIN, ROCK]], ids=["plain", "rock"])
-def test_what_nobody_painted_on_is_saved_as_it_lay_there(tmp_path, brushes, monkeypatch):
+def test_what_nobody_painted_on_is_saved_as_it_lay_there(tmp_path, brushes, monkeypatch, where):
     save(tmp_path / "a.ora", Snapshot(painted(*brushes)))
     found = open_painting(tmp_path / "a.ora").painting
     monkeypatch.delattr(tilecode, "encoded")
@@ -110,7 +133,7 @@ def test_what_nobody_painted_on_is_saved_as_it_lay_there(tmp_path, brushes, monk
 
 @pytest.mark.parametrize("brushes", [[PLAIN], [PLAIN, ROCK]], ids=["plain", "rock"])
 @pytest.mark.parametrize("level", [-1, 0, 1])
-def test_what_is_painted_on_an_opened_painting_is_saved(tmp_path, brushes, level):
+def test_what_is_painted_on_an_opened_painting_is_saved(tmp_path, brushes, level, where):
     painting = painted(*brushes)
     save(tmp_path / "a.ora", Snapshot(painting))
     points = [[60 * 2.0**level, 50 * 2.0**level], [90 * 2.0**level, 70 * 2.0**level]]
@@ -130,6 +153,32 @@ def tiles_of(count, spread):
 
 def put_off(data):
     return unpack(data, "a", lambda key: pytest.fail("no ink"), None, at_once=False)
+
+
+PLACED = st.tuples(st.sampled_from([0, 3]), st.integers(-9, 9), st.integers(-5, 20) | st.just(1 << 70))
+
+
+@given(st.lists(PLACED, unique=True, max_size=40), st.integers(0, 7), st.sampled_from([1, 8, 4096]))
+@settings(max_examples=40)
+def test_tiles_of_a_file_are_what_they_were_by_pages_and_none_is_there_twice(places, depth, many):
+    tiles = [(TileKey(*place), record, None) for place, (_, record, _) in zip(places, tiles_of(40, 9), strict=False)]
+    read = [
+        tile if n % 5 == 4 else filed for n, (tile, filed) in enumerate(zip(tiles, put_off(pack(tiles)), strict=True))
+    ]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(filed_pages, "MANY", many)
+        gathered = Gathered("a.ora", [tile[:2] for tile in read])
+        for key, record, _ in read:
+            with pytest.raises(FileError, match="is there twice"):
+                gathered.add(key, record)
+        levels = gathered.levels(depth)
+    found = {(level, *place): record for level, stored in levels.items() for place, record in stored.items()}
+    assert found.keys() == set(places)
+    assert all((level, *place) in found for level, stored in levels.items() for place in stored)
+    for key, record, _ in tiles:
+        there = found[tuple(key)]
+        assert (there.rect, there.inks, there.depth) == (record.rect, record.inks, depth)
+        assert np.array_equal(there.data, record.data)
 
 
 def test_a_block_is_kept_together_where_a_tile_before_it_is_painted_anew(monkeypatch):
@@ -171,7 +220,10 @@ def test_what_was_made_of_late_takes_no_more_than_it_may(kept, most):
 def test_a_block_is_decoded_once_for_all_of_its_tiles():
     asked = []
     block = Block(
-        lambda: asked.append(1) or [np.full((4, 2, 2), n, np.int16) for n in range(3)], 3, 96, memoryview(b"x" * 30)
+        lambda stored: asked.append(1) or [np.full((4, 2, 2), n, np.int16) for n in range(3)],
+        3,
+        96,
+        memoryview(b"x" * 30),
     )
     held = [Filed(block, n, 16) for n in range(3)]
     assert [int(h.made()[0, 0, 0]) for h in held] == [0, 1, 2]

@@ -7,7 +7,7 @@ of its file and of what is looked at.  What ink implies of colour (engine/archiv
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from engine.canvas.store import Pyramid, Record
 from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
 from engine.keeping.recent import Recent
+from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import TileKey
 
 _PART = 8  # of the budget of memory: tiles that are kept as they were decoded
@@ -29,13 +30,37 @@ DECODED: Recent[np.ndarray] = Recent(lambda: memory.budget() // _PART)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Block:
-    """A run of so many tiles as a file holds them: `decode` gives their integers, of `stored` bytes, which are `plain`
-    ones deflated."""
+    """A run of so many tiles as a file holds them: `decode` gives their integers, of the stored bytes, which are
+    `plain` ones deflated; `held`: those, or where on disk they are."""
 
-    decode: Callable[[], Sequence[np.ndarray]]
+    decode: Callable[[bytes | memoryview], Sequence[np.ndarray]]
     count: int
     plain: int
-    stored: memoryview
+    held: memoryview | Spilled
+
+    @property
+    def stored(self) -> bytes | memoryview:
+        """Gives the stored bytes.  OSError if they cannot be read."""
+        held = self.held
+        return held.read() if isinstance(held, Spilled) else held
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that they take."""
+        held = self.held
+        return PLACE_OVERHEAD if isinstance(held, Spilled) else held.nbytes
+
+    def put_away(self) -> int:
+        """Puts the stored bytes away on disk.  Returns the bytes of memory that they take less: 0 where they lie there
+        already, are too few for that, or have no room."""
+        held = self.held
+        if isinstance(held, Spilled) or held.nbytes <= PLACE_OVERHEAD:
+            return 0
+        put = spill().put(bytes(held))
+        if put is None:
+            return 0
+        object.__setattr__(self, "held", put)
+        return put.size - PLACE_OVERHEAD
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,7 +74,7 @@ class Filed:
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
-        return self.block.stored.nbytes // self.block.count + _TILE_OVERHEAD
+        return self.block.nbytes // self.block.count + _TILE_OVERHEAD
 
     @property
     def itemsize(self) -> int:
@@ -64,7 +89,7 @@ class Filed:
         """Returns the data, read-only."""
         known = DECODED.get((self.block, self.number))
         if known is None:
-            for number, data in enumerate(self.block.decode()):
+            for number, data in enumerate(self.block.decode(self.block.stored)):
                 data.flags.writeable = False
                 DECODED.keep((self.block, number), data, data.nbytes)
                 known = data if number == self.number else known
@@ -167,6 +192,6 @@ def block_at(tiles: Sequence[Coded], start: int) -> Block | None:
     return first.block if same else None
 
 
-def shelved(tiles: Sequence[Coded], shelf: Shelf) -> list[Coded]:
-    """Returns tiles as a layer has them whose records hold what lies in the file."""
-    return [(key, shelf.record(key, record, implied), implied) for key, record, implied in tiles]
+def shelved(tiles: Iterable[Coded], shelf: Shelf) -> Iterator[Coded]:
+    """Yields tiles as a layer has them whose records hold what lies in the file."""
+    return ((key, shelf.record(key, record, implied), implied) for key, record, implied in tiles)
