@@ -55,6 +55,16 @@ class _Renewed:
             self._bytes += more
             self._held[record] = key, serial, now
 
+    @property
+    def held(self) -> int:
+        """Returns the bytes that are held now, or of late were."""
+        return self._bytes
+
+    def shrink(self, by: int) -> None:
+        """Forgets all, if anything is to be forgotten."""
+        if by > 0:
+            self.clear()
+
     def clear(self) -> None:
         """Forgets all."""
         with self._lock:

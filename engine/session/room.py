@@ -5,12 +5,11 @@ from __future__ import annotations
 import time
 
 from engine import spare_memory
-from engine.archive.shelves.shelf import DECODED
 from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import large_pages, memory
-from engine.session.coding import coded_records, coded_tiles, paged_records
+from engine.session.coding.made_again import forget_made
 from engine.session.history import History
 from engine.session.paging import Paging
 
@@ -84,10 +83,7 @@ class Room(Owned):
         cache, over = self._cache, memory.resident() - most
         self.history.tight = over > 0
         if over > 0:
-            DECODED.shrink(over)
-            coded_records.forget_made(over)
-            coded_tiles.forget_tiles_made(over)
-            paged_records.forget_read(over)
+            forget_made(over)
             cache.shrink(max(cache.held - over, memory.cache_share() // 4, SMALLEST_CACHE))
             memory.give_back()
             over = memory.resident() - most

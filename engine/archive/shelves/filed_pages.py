@@ -16,8 +16,8 @@ from engine.archive.shelves.shelf import Block, Filed, Lessened
 from engine.canvas.rising.paged_level import MANY, Page, PagedLevel, TilePlace, bit_of, page_of, place_in
 from engine.canvas.store import Pyramid, Record
 from engine.files.fault import FileError
-from engine.keeping.recent import Recent
 from engine.numeric.address import Rect, TileKey
+from engine.numeric.recent import Recent
 from engine.texture.record import Instance
 
 _READ = 24 << 20  # bytes of pages kept that were asked for

@@ -16,9 +16,9 @@ from engine.archive.implied import Coded, Implied, square_of, square_restored
 from engine.canvas.store import Pyramid, Record
 from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
-from engine.keeping.recent import Recent
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import TileKey
+from engine.numeric.recent import Recent
 
 _PART = 8  # of the budget of memory: tiles that are kept as they were decoded
 CACHE = 16 << 20  # bytes of a layer's values that are kept while colour is put back

@@ -15,9 +15,9 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.canvas.store import Record
-from engine.keeping.recent import Recent
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import Rect
+from engine.numeric.recent import Recent
 from engine.texture.even_planes import EvenPlanes
 from engine.texture.planes import COLOURS, plane_map
 from engine.texture.record import Instance
@@ -73,12 +73,12 @@ class CodedData:
 
     def made(self) -> np.ndarray:
         """Returns the data, read-only."""
-        known = _KEPT.get(self)
+        known = RECORDS_MADE.get(self)
         if known is not None:
             return known
         way = [self]  # to the nearest record whose data are there
         while (other := way[-1].other) is not None and isinstance(held := other.held, CodedData):
-            if isinstance(held, CodedSheets) or _KEPT.get(held) is not None:
+            if isinstance(held, CodedSheets) or RECORDS_MADE.get(held) is not None:
                 break
             way.append(held)
         first = way.pop()
@@ -87,7 +87,7 @@ class CodedData:
             alike = coded.rect == before.rect and coded.inks == before.inks and coded.dtype == before.dtype
             data = coded._added(data if alike else coded._predicted(data))
         data.flags.writeable = False
-        _KEPT.keep(self, data, data.nbytes)
+        RECORDS_MADE.keep(self, data, data.nbytes)
         return data
 
     def _predicted(self, data: np.ndarray | None) -> np.ndarray:
@@ -119,11 +119,11 @@ class CodedSheets(CodedData, OfSheets):
 
     def plain(self) -> SparsePlanes:
         """Returns the sheets."""
-        known = _SHEETS.get(self)
+        known = SHEETS_MADE.get(self)
         if known is not None:
             return known
         made = self._unpacked()
-        _SHEETS.keep(self, made, made.nbytes)
+        SHEETS_MADE.keep(self, made, made.nbytes)
         return made
 
     def _unpacked(self) -> SparsePlanes:
@@ -141,8 +141,8 @@ class CodedSheets(CodedData, OfSheets):
         return self.plain().made()
 
 
-_KEPT: Recent[np.ndarray] = Recent(lambda: _MADE)
-_SHEETS: Recent[SparsePlanes] = Recent(lambda: _MADE)
+RECORDS_MADE: Recent[np.ndarray] = Recent(lambda: _MADE)
+SHEETS_MADE: Recent[SparsePlanes] = Recent(lambda: _MADE)
 
 
 class Ways:
@@ -224,14 +224,8 @@ def decode(record: Record) -> None:
     held = record.held
     if isinstance(held, CodedData):
         record.exchange(held.plain())
-        _KEPT.forget(held)
-        _SHEETS.forget(held)
-
-
-def forget_made(by: int) -> None:
-    """Forgets so many bytes of data that were asked for of late, as far as there are any."""
-    _SHEETS.shrink(by)
-    _KEPT.shrink(by)
+        RECORDS_MADE.forget(held)
+        SHEETS_MADE.forget(held)
 
 
 def _coded(record: Record, other: Record | None) -> CodedData:

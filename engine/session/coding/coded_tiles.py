@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from isal import isal_zlib
 
-from engine.keeping.recent import Recent
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled
 from engine.numeric.grid import FINE_STEP
+from engine.numeric.recent import Recent
 from engine.session.coding.coded_records import joined_bytes, split_bytes
 from engine.texture.example.tiles import TilePlanes
 
@@ -41,7 +41,7 @@ class CodedTile:
 
     def made(self) -> np.ndarray:
         """Returns the planes, read-only.  OSError if they cannot be read."""
-        known = _KEPT.get(self)
+        known = TILES_MADE.get(self)
         if known is not None:
             return known
         told = self.dtype if self.steps is None else self.steps
@@ -51,11 +51,11 @@ class CodedTile:
         if self.steps is not None:
             planes = planes.astype(self.dtype) * self.dtype.type(FINE_STEP)
         planes.flags.writeable = False
-        _KEPT.keep(self, planes, planes.nbytes)
+        TILES_MADE.keep(self, planes, planes.nbytes)
         return planes
 
 
-_KEPT: Recent[np.ndarray] = Recent(lambda: _MADE)
+TILES_MADE: Recent[np.ndarray] = Recent(lambda: _MADE)
 
 
 def encode_tile(tile: TilePlanes) -> int:
@@ -78,12 +78,7 @@ def decode_tile(tile: TilePlanes) -> None:
     held = tile.held
     if isinstance(held, CodedTile):
         tile.exchange(held.made())
-        _KEPT.forget(held)
-
-
-def forget_tiles_made(by: int) -> None:
-    """Forgets so many bytes of planes that were asked for of late, as far as there are any."""
-    _KEPT.shrink(by)
+        TILES_MADE.forget(held)
 
 
 def _steps(planes: np.ndarray) -> np.ndarray | None:

@@ -57,11 +57,6 @@ class RecordsAway:
         return found
 
 
-def forget_read(by: int) -> None:
-    """Forgets so many bytes of pages that were asked for of late, as far as there are any."""
-    PAGES_READ.shrink(by)
-
-
 def put_page_away(page: Page[Record], newest: int) -> int:
     """Puts the records of a page away that were not stored after the commit `newest`.  Returns the bytes of memory
     that they take less: 0 where too few are worth it."""

@@ -14,8 +14,8 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.files.strict_json import dumps, loads
-from engine.keeping.recent import Recent
 from engine.keeping.spill import Spilled, spill
+from engine.numeric.recent import Recent
 from engine.painting.commands import Command, parse, to_json
 from engine.painting.recording import ToldCommands, version_of
 

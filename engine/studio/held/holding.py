@@ -9,6 +9,7 @@ from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.keeping.spill import spill
 from engine.painting.value import Painting
+from engine.session.coding.made_again import made_held
 from engine.session.held_pyramids import pyramids
 from engine.session.session import Session
 from engine.studio.easel import Easel
@@ -49,6 +50,7 @@ def held_by(session: Session) -> tuple[tuple[str, int], ...]:
         ("What is on the screen", session.cache.held),
         ("Pictures", _pictures(painting)),
         ("Strokes as they were drawn", session.log.held),
+        ("Made again when it is asked for", made_held()),
     )
 
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator
-from functools import lru_cache
 
 import numpy as np
 
 from engine.numeric.address import TILE, Rect
+from engine.numeric.recent import Recent
 
-_KEPT = 256  # squares of all that is drawn, of at most 2^18 bytes each
+_KEPT = 64 << 20  # bytes of squares of all that is drawn
 _WORTH = 8  # of a square: what is asked for less of it is not kept
+
+SQUARES: Recent[np.ndarray] = Recent(lambda: _KEPT)
 
 
 def from_squares(draw: Callable[..., np.ndarray], about: tuple[Hashable, ...], channels: int, rect: Rect) -> np.ndarray:
@@ -33,6 +35,10 @@ def _squares(rect: Rect) -> Iterator[tuple[Rect, Rect]]:
             yield rect.intersect(square), square
 
 
-@lru_cache(_KEPT)
 def _kept(draw: Callable[..., np.ndarray], about: tuple[Hashable, ...], square: Rect) -> np.ndarray:
-    return draw(*about, square)
+    key = draw, about, square
+    known = SQUARES.get(key)
+    if known is None:
+        known = draw(*about, square)
+        SQUARES.keep(key, known, known.nbytes)
+    return known

@@ -310,7 +310,7 @@ def test_what_is_kept_of_data_that_were_asked_for_is_bounded(monkeypatch):
     code_all(session.history)
     for n in range(1, 12):
         contents(session.history.at(-n))
-    assert coded_records._KEPT.held <= 1 << 20
+    assert coded_records.RECORDS_MADE.held <= 1 << 20
 
 
 def test_old_steps_are_coded_beside_the_painting_and_forgotten_ones_are_played_anew(monkeypatch):

@@ -11,7 +11,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import old_commits, paging
-from engine.session.coding import coded_records, paged_records
+from engine.session.coding import coded_records, made_again, paged_records
 from engine.session.coding.coded_records import CodedData
 from engine.session.differing import difference
 from engine.session.held_pyramids import pyramids
@@ -108,7 +108,7 @@ def test_steps_of_heaps_and_masks_are_coded_put_away_and_undone_as_they_were():
     assert any(isinstance(record.held, CodedData) for record in large)
     while line.in_memory:
         line.put_away()
-    coded_records.forget_made(1 << 40)
+    made_again.forget_made(1 << 40)
     for wanted in states[-2::-1]:
         session.do(c.Undo(1))
         assert contents(session.painting) == wanted

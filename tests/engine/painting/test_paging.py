@@ -24,10 +24,12 @@ from engine.session import paging
 from engine.session import room as rooms
 from engine.session.coding import coded_records, paged_records
 from engine.session.coding.coded_records import CodedData
+from engine.session.coding.made_again import made_held
 from engine.session.coding.paged_records import put_page_away
 from engine.session.paging import Paging
 from engine.session.room import Room
 from engine.session.session import Session
+from engine.texture.expression.kept_squares import SQUARES
 
 stroke = partial(stepped.stroke, radius=9.0)
 
@@ -107,10 +109,15 @@ def test_a_process_that_takes_too_much_pages_what_is_painted(monkeypatch):
     for n in range(6):
         session.do(stroke(n))
     room, before = session.room, contents(session.painting)
+    for number in range(3):  # of written textures, as strokes and views asked for them
+        SQUARES.keep(number, np.zeros(1), 1 << 20)
+    held = made_held()
+    assert held >= 3 << 20
     assert all(isinstance(record.held, np.ndarray) for record in records(session.painting))
     monkeypatch.setattr(memory, "budget", lambda: 0)
     monkeypatch.setattr(memory, "PROGRAM", 0)
     room.keep_within(session.painting.root)
+    assert made_held() <= held - (2 << 20)
     while room.pending:
         room.step()
     assert all(isinstance(record.held, CodedData) or record.data.nbytes < 2048 for record in records(session.painting))

@@ -12,12 +12,12 @@ from stepped import ROCK, contents
 
 from engine.canvas import layers
 from engine.canvas.tile_cache import TileCache
-from engine.keeping.recent import Recent
 from engine.keeping.spill import Spill, Spilled
 from engine.numeric.address import Rect
+from engine.numeric.recent import Recent
 from engine.painting import commands as c
 from engine.painting.value import Painting
-from engine.session.coding import coded_records
+from engine.session.coding import coded_records, made_again
 from engine.session.coding.coded_records import CodedData
 from engine.session.history import History
 from engine.session.session import Session
@@ -127,8 +127,8 @@ def test_what_steps_had_on_disk_is_free_when_they_are_gone(disk, monkeypatch):
     studio.close()
     del studio
     gc.collect()
-    coded_records._KEPT._made.clear()  # of what was asked for of late, nothing
-    monkeypatch.setattr(coded_records, "_KEPT", Recent(lambda: 0))
+    coded_records.RECORDS_MADE._made.clear()  # of what was asked for of late, nothing
+    monkeypatch.setattr(coded_records, "RECORDS_MADE", Recent(lambda: 0))
     disk.put(b"")
     assert disk.held == 0
 
@@ -154,7 +154,7 @@ def test_what_was_undone_goes_to_disk_too_where_there_is_no_room_and_is_done_aga
     assert undone.plain == undone.in_memory == 0
     assert disk.held > 0
     assert 0 < history.held < plain / 2
-    coded_records.forget_made(1 << 40)
+    made_again.forget_made(1 << 40)
     for wanted in states[1:]:
         session.do(c.Redo(1))
         assert contents(session.painting, depth=False) == wanted

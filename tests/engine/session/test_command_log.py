@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from immutables import Map
 
 from engine.archive.saving import Snapshot, save
-from engine.keeping.recent import Recent
 from engine.keeping.spill import Spill
+from engine.numeric.recent import Recent
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording, read_from
 from engine.session.logged import command_log

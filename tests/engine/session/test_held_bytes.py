@@ -12,7 +12,7 @@ from immutables import Map
 from engine.brush.settings import Brush
 from engine.keeping.spill import PLACE_OVERHEAD, Spill, Spilled
 from engine.painting.commands import CopyPaint, DefineTexture, Redo, Stroke, Undo
-from engine.session.coding import coded_records
+from engine.session.coding import coded_records, made_again
 from engine.session.session import Session
 from engine.texture.image import ImageSource
 
@@ -45,7 +45,7 @@ def painted(count):
 
 
 def part_counted(session):
-    coded_records.forget_made(1 << 40)
+    made_again.forget_made(1 << 40)
     seen = set()
     for kept in (session.painting, session.log, session.cache):
         found_from(kept, seen)
