@@ -24,13 +24,14 @@ Read = Callable[[Rect], Planes]  # the old values of a rectangle of the stroke's
 @dataclass(frozen=True, slots=True)
 class Looks:
     """What a stroke looks at besides the pixels under it: the pen's `pressure` at each; another `layer`, by name;
-    `rim`: so many pixels within its own rim, 0 for nothing of that.  `whole` names what has to see the whole stroke
-    before it knows any pixel, "" for nothing of the kind."""
+    `rim`: so many pixels within its own rim, 0 for nothing of that; `ways`: which way it runs.
+    `whole` names what has to see the whole stroke before it knows any pixel, "" for nothing of the kind."""
 
     pressure: bool = False
     layer: str | None = None
     whole: str = ""
     rim: float = 0.0
+    ways: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -40,7 +41,8 @@ class Scene:
     `source`: reads the layer that the op names, at the stroke's level; `origin`: the stroke's, in pixels of its level;
     `pressure`: the stroke's coverage laid with the pen's pressure as opacity: the strongest that went over a pixel.
     `start`: the pixel where the stroke begins; `seed`: of what is random; `memo`: what was learnt there, kept for the
-    whole stroke; `arithmetic`: the painting's; `covered`: the stroke's coverage before anything thins it.
+    whole stroke; `arithmetic`: the painting's; `covered`: the stroke's coverage before anything thins it; `ways`:
+    what its tiles know of the way that it runs (`strokes.scenery.Headings`).
     """
 
     source: Read | None = None
@@ -51,6 +53,7 @@ class Scene:
     memo: dict[str, Predictor | None] = field(default_factory=dict)
     arithmetic: int = LIBRARY
     covered: Coverage | None = None
+    ways: Mapping[TileKey, np.ndarray] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,6 +20,7 @@ import numpy as np
 
 from engine.brush import sway
 from engine.brush.checks import BrushError
+from engine.brush.heading import FIRST_WAY, Ways
 from engine.brush.parts import Component, Surface, Tip
 from engine.brush.settings import Brush
 from engine.brush.sway import Swayed
@@ -55,7 +56,7 @@ class Loaded:
 @dataclass(frozen=True, eq=False)
 class Ink:
     """`base`: the constant part of the colour, float32 (3,), encoded sRGB; `loaded`: the instances, sorted by key;
-    `swayed`: what goes with the pressure, of those of them that do."""
+    `swayed`: what goes with the pressure, the rim or the stroke's direction, of those of them that do."""
 
     base: np.ndarray
     loaded: tuple[Loaded, ...] = ()
@@ -72,19 +73,26 @@ class Ink:
         """Red, green and blue amplitude of every instance in turn: float32 (3n,)."""
         return np.concatenate([part.amplitude for part in self.loaded]) if self.loaded else np.zeros(0, np.float32)
 
+    @cached_property
+    def _swaying(self) -> Mapping[Instance, list[Swayed]]:
+        out = defaultdict[Instance, list[Swayed]](list)
+        for one in self.swayed:
+            out[one.instance].append(one)
+        return out
+
     def under(
-        self, key: TileKey, pressure: np.ndarray, rim: np.ndarray | None = None
+        self, key: TileKey, pressure: np.ndarray, rim: np.ndarray | None = None, ways: Ways = FIRST_WAY
     ) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
-        """Under the pressure at each pixel of a tile, and so far from the stroke's rim, float32 (128, 128), None for 1:
-        the ink's colour, float32 (3, 128, 128), the amplitudes (3n, 128, 128) of those n instances that have any
-        there, and these."""
+        """Under the pressure at each pixel of a tile, so far from the stroke's rim, float32 (128, 128), None for 1, and
+        where it runs those `ways` (`heading.nearest_ways`): the ink's colour, float32 (3, 128, 128),
+        the amplitudes (3n, 128, 128) of those n instances that have any there, and these."""
         colour = np.broadcast_to(self.base[:, None, None], (3, *pressure.shape)).copy()
         planes, inks = [], []
         for part in self.loaded:
             amplitude = np.zeros((3, *pressure.shape), np.float32) + part.amplitude[:, None, None]
-            for one in self.swayed:
-                if one.instance == part.instance:
-                    amplitude += one.amplitude[:, None, None] * one.part(pressure, rim)
+            for one in self._swaying.get(part.instance, ()):
+                if one.lies_in(ways):
+                    amplitude += one.amplitude[:, None, None] * one.part(pressure, rim, ways)
             if amplitude.any():
                 colour += amplitude * part.instance.appearance(key.level, key.rect)[:3]
                 planes.append(amplitude)
@@ -138,13 +146,20 @@ def resolve(
             hidden = _cover(own)
             if hidden is not None:
                 found[hidden] -= component.amount * under
-        for told, *hats in mixed:
+        for told, hats in mixed:
             part = named(sway.told_so(component, told), textures, level, seed, place)
             made, hidden = shaped(part, component.shaping, brush.shaping), _cover(part)
             swayed.append(Swayed(made, amplitude.astype(np.float32), *hats))
             if hidden is not None and under.any():
                 swayed.append(Swayed(hidden, (-component.amount * under).astype(np.float32), *hats))
     return Ink(base.astype(np.float32), _loaded(found, swayed), tuple(swayed))
+
+
+def refuse_ways(ink: Ink, expected: str) -> Ink:
+    """Returns an ink, unless it goes by the direction of a stroke.  BrushError tells what is expected in its place."""
+    if any(one.way is not None for one in ink.swayed):
+        raise BrushError("brush.ink", "a texture that goes by the direction of its stroke", expected)
+    return ink
 
 
 def _loaded(found: Mapping[Instance, np.ndarray], swayed: list[Swayed]) -> tuple[Loaded, ...]:
@@ -182,6 +197,15 @@ def named(
     part: Component | Surface | Tip, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str
 ) -> Instance:
     """Returns the texture that a part of a brush names, bound to `level`.  BrushError at `where` and the field."""
+    made = _made(part, textures, level, seed, where)
+    if getattr(made, "ways", 1) > 1 and isinstance(part, Surface | Tip):
+        raise BrushError(f"{where}.texture", "one that goes by the direction of its stroke", "another: that is for ink")
+    return made
+
+
+def _made(
+    part: Component | Surface | Tip, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str
+) -> Instance:
     name = part.texture
     try:
         defined = textures.get(name)

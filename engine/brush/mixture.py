@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 
 from engine.brush import sway, tones
-from engine.brush.ink import Ink, Texture, resolve
+from engine.brush.ink import Ink, Texture, refuse_ways, resolve
 from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.image import ImageSource
@@ -24,7 +24,8 @@ def mixture(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: 
     """Returns the brush's textures mixed to one number, sum a_i s_i: the ink that they would be in white over black;
     those that go with the pressure are as at full pressure."""
     ink = tuple(replace(sway.still(part, textures), colour="#ffffff") for part in brush.ink)
-    return resolve(replace(brush, colour="#000000", ink=ink), textures, level, seed)
+    made = resolve(replace(brush, colour="#000000", ink=ink), textures, level, seed)
+    return refuse_ways(made, f"another in mode {brush.mode}: a direction is for paint")
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ import numpy as np
 from engine.brush import coat
 from engine.brush.covered import Covered, Looks
 from engine.brush.felt import tints_of
+from engine.brush.heading import FIRST_WAY, nearest_ways
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.rim import rim_of_ink
 from engine.brush.settings import Brush
@@ -40,10 +41,11 @@ class Painting(Covered):
 
     @staticmethod
     def looks(brush: Brush, ink: Ink | None) -> Looks:
-        """At the pressure, and at the rim, where the ink goes with it."""
+        """At the pressure, at the rim, and at the way that the stroke runs, where the ink goes with it."""
         swayed = () if ink is None else ink.swayed
         rim = rim_of_ink(brush).width if any(one.rim is not None for one in swayed) else 0.0
-        return Looks(pressure=any(one.hat is not None for one in swayed), rim=rim)
+        ways = any(one.way is not None for one in swayed)
+        return Looks(pressure=any(one.hat is not None for one in swayed), rim=rim, ways=ways)
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
         """Returns A and B of a tile, as `Edit.stamp`; None where nothing changes."""
@@ -100,7 +102,8 @@ class Painting(Covered):
         if covered is not None:
             within = rim_of_ink(self.brush)
             rim = within.depths(within.around(covered.tiles, key))
-        return self._varied(keep, old, self.ink.under(key, pressure, rim))
+        ways = FIRST_WAY if self.scene.ways is None else nearest_ways(self.scene.ways.get(key))
+        return self._varied(keep, old, self.ink.under(key, pressure, rim, ways))
 
     def _varied(
         self, keep: np.ndarray, old: Planes, under: tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]

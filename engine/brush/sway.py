@@ -11,12 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from engine.brush import checks
+from engine.brush.heading import Ways
 from engine.brush.parts import Component
+from engine.texture.expression.written import FULL_TURN
 from engine.texture.expression.written_ink import Expression
 from engine.texture.record import Instance
 from engine.texture.table import EXPRESSION
@@ -42,37 +45,42 @@ class Hat:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Swayed:
-    """An instance of the ink whose amplitude, float32 (3,), goes with the pressure, or with the distance from the
-    stroke's rim."""
+    """An instance of the ink whose amplitude, float32 (3,), goes with the pressure, with the distance from the
+    stroke's rim, or with the way that it runs: the number `way` of 16."""
 
     instance: Instance
     amplitude: np.ndarray
     hat: Hat | None = None
     rim: Hat | None = None
+    way: int | None = None
 
-    def part(self, pressure: np.ndarray, rim: np.ndarray | None) -> np.ndarray:
-        """Returns how much of it there is, of pressures and distances, 0..1: float32."""
+    def part(self, pressure: np.ndarray, rim: np.ndarray | None, ways: Ways) -> np.ndarray:
+        """Returns how much of it there is, of pressures and distances, 0..1, and ways: float32."""
         found = np.ones_like(pressure) if self.hat is None else self.hat.of(pressure)
-        return found if self.rim is None or rim is None else found * self.rim.of(rim)
+        found = found if self.rim is None or rim is None else found * self.rim.of(rim)
+        return found if self.way is None else found * ways.part(self.way)
+
+    def lies_in(self, ways: Ways) -> bool:
+        """Tells whether a stroke that runs these ways may show it."""
+        return self.way is None or ways.has(self.way)
 
 
 def stages_of(
     own: Instance, component: Component, curve: checks.Knots | None
-) -> Iterator[tuple[dict[str, float], Hat | None, Hat | None]]:
+) -> Iterator[tuple[dict[str, float], tuple[Hat | None, Hat | None, int | None]]]:
     """Yields for each of the textures that a stroke mixes what a component tells to be it, and where it is; nothing
     where there is one for all."""
     pressures = getattr(own, "stages", 1) if curve is not None else 1
     rims = 1 if "rim" in component.parameters else getattr(own, "rims", 1)
-    if pressures == rims == 1:
+    ways = 1 if "direction" in component.parameters else getattr(own, "ways", 1)
+    if pressures == rims == ways == 1:
         return
-    for k in range(pressures):
+    for k, n, way in product(range(pressures), range(rims), range(ways)):
         told = {"weight": k / (pressures - 1)} if pressures > 1 else {}
+        told |= {"rim": n / (rims - 1)} if rims > 1 else {}
+        told |= {"direction": way * FULL_TURN / ways} if ways > 1 else {}
         hat = Hat(curve, k, pressures) if curve is not None and pressures > 1 else None
-        for n in range(rims):
-            if rims == 1:
-                yield told, hat, None
-            else:
-                yield {**told, "rim": n / (rims - 1)}, hat, Hat(_STRAIGHT, n, rims)
+        yield told, (hat, Hat(_STRAIGHT, n, rims) if rims > 1 else None, way if ways > 1 else None)
 
 
 def curve_of(component: Component, place: str) -> checks.Knots | None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from engine.brush import sway
-from engine.brush.ink import Ink, Texture, resolve
+from engine.brush.ink import Ink, Texture, refuse_ways, resolve
 from engine.brush.located import Patches, located
 from engine.brush.settings import Brush
 from engine.numeric.address import Rect, TileKey
@@ -134,6 +134,7 @@ def tinted_ink(brush: Brush, textures: Mapping[str, Texture | ImageSource], leve
     """Returns the ink of a brush, as `ink.resolve`; what goes with the pressure is as at full pressure."""
     ink = tuple(sway.still(component, textures) for component in brush.ink)
     whole = resolve(replace(brush, ink=ink), textures, level, seed)
+    refuse_ways(whole, "another where a brush is wet, fixes its textures, or its colour follows something")
     parts = []
     for component in ink:
         alone = replace(brush, ink=(component,))

@@ -77,7 +77,7 @@ class Namesakes:
                 raise _refused(written, term.token.at, error.found, error.expected) from None
             if made is None:
                 raise _refused(written, term.token.at, quoted(name), self._expected(name))
-            if isinstance(made, Expression) and read(made.text).follows:
+            if isinstance(made, Expression) and (read(made.text).follows or made.ways > 1):
                 raise _refused(written, term.token.at, f"{quoted(name)}, made for a stroke", "a texture that is not")
             found[name] = made
         return found
@@ -123,6 +123,8 @@ class Namesakes:
         named, parts, periods = dict[str, Instance](), list[str](), list[float]()
         for number, component in enumerate(brush.ink, 1):
             own = of_component(component, defined, 0, self.seed, name)
+            if getattr(own, "ways", 1) > 1:
+                raise FieldError("ink", f"{quoted(name)}, made for a stroke", "a texture that is not")
             periods.append(_period(own))
             named[str(number)] = bound_anew(shaped(own, component.shaping, brush.shaping))
             parts.append(_part(number, component, periods[0] / periods[-1], _shows_colours(own)))

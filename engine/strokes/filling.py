@@ -10,6 +10,7 @@ from engine.brush import dynamics, edits, relief
 from engine.brush.checks import BrushError
 from engine.brush.covered import Looks, Read, Scene
 from engine.brush.foretell import AREA_CAP
+from engine.brush.ink import refuse_ways
 from engine.brush.mask import Coverage
 from engine.brush.settings import Brush
 from engine.brush.stamp import Edit
@@ -166,6 +167,8 @@ class Pouring:
         ink = made.ink_of(brush, textures, level, seed)
         own = relief.resolve(brush, textures, level, (seed, seed))
         thins: Thinning = own if self._limit is None else self._limit.after(own)
+        if ink is not None:
+            refuse_ways(ink, "another: a fill runs no way")
         scene = self._scene(made.looks(brush, ink), coverage)
 
         def read(rect: Rect) -> Planes:

@@ -1,4 +1,5 @@
-"""What a stroke looks at besides the pixels under it: another layer, the pen's pressure, itself as a whole."""
+"""What a stroke looks at besides the pixels under it: another layer, the pen's pressure, the way it runs, itself as a
+whole."""
 
 from __future__ import annotations
 
@@ -6,22 +7,32 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from immutables import Map
 
 from engine.brush.checks import BrushError
-from engine.brush.copies import NO_COPIES, Copies, Torus, copied
+from engine.brush.copies import NO_COPIES, Copies, Torus, copied, copied_places
 from engine.brush.covered import Looks, Read, Scene
 from engine.brush.dabs import Stroker
+from engine.brush.dynamics import knots_of
+from engine.brush.felt import PLACE_COLUMNS, radii_around, tints_of
 from engine.brush.foretell import AREA_CAP
 from engine.brush.mask import StrokeMask
-from engine.brush.settings import Brush
+from engine.brush.settings import FIXED_TO, SETTINGS, Brush
+from engine.brush.tinting import Tinted
+from engine.brush.tip_shape import ROUND
 from engine.canvas import layers
 from engine.canvas.growth import is_settled, settled
 from engine.canvas.layers import Group, Layer
+from engine.canvas.painted import tile_bounds
 from engine.canvas.reading import layer_ink
 from engine.canvas.tile_cache import TileCache
-from engine.numeric.address import Rect
+from engine.numeric.address import Rect, TileKey
 from engine.numeric.prediction import Predictor
 from engine.texture.planes import Planes
+
+_WIDER, _SPARE = 1.5, 2.0  # of the stroke's radius, px
+_SPACING, _FLOW = 0.15, 0.4  # so that a pixel sees about as far back as ahead, and little of what was there before
+_PLAIN = 6  # columns of a dab that is round
 
 
 class Scenery:
@@ -47,6 +58,7 @@ class Scenery:
         self._stroker = Stroker(self._brush, chance)
         self._level, self._mask = level, StrokeMask(level, self._origin)
         self._copies = copies
+        self._headings = Headings(brush, place, copies, chance) if looks.ways else None
         self._seed, self._start = seed, (0, 0)
         self._memo: dict[str, Predictor | None] = {}
         self._begun = False
@@ -69,7 +81,7 @@ class Scenery:
                 self._mask = StrokeMask(self._level, self._origin)
             for part in copied(self._stroker.rest() if self._stroker.waits else dabs, self._copies):
                 self._mask.paint(part)
-        return rect
+        return rect if self._headings is None else rect.union(self._headings.lay(points))
 
     @property
     def predictor(self) -> Predictor | None:
@@ -80,7 +92,55 @@ class Scenery:
     def scene(self) -> Scene:
         """Gives what a raster-op looks at, as the stroke is now."""
         pressure = self._mask.coverage() if self._looks.pressure else None
-        return Scene(self._source, self._origin, pressure, self._start, self._seed, self._memo)
+        ways = None if self._headings is None else self._headings.ways
+        return Scene(self._source, self._origin, pressure, self._start, self._seed, self._memo, ways=ways)
+
+
+class Headings:
+    """The ways that one stroke runs, growing with it.  Along it lie dabs a little larger than its own, soft up to their
+    middle, of which each tells its way; a pixel has the mean of those over it, as of colours (`tinting`).
+
+    `place`: the stroke's level and origin; `chance`: of what is random in it."""
+
+    def __init__(self, brush: Brush, place: tuple[int, tuple[int, int]], copies: Copies | Torus, chance: int) -> None:
+        radius = min(brush.radius * radii_around(brush) * _WIDER + _SPARE, SETTINGS["radius"].hi)
+        kept = {name: knots_of(curve) for name, curve in brush.dynamics.items() if name == "radius"}
+        steady = replace(brush, radius=radius, opacity=1.0, flow=_FLOW, hardness=0.0, spacing=_SPACING, tip=None)
+        self._brush = replace(steady, shape=ROUND, dynamics=Map(kept), wet=None, fixed=FIXED_TO[1])
+        self._stroker, self._place, self._copies = Stroker(self._brush, chance), place, copies
+        self._mask = self._blank()
+
+    def _blank(self) -> StrokeMask:
+        return StrokeMask(*self._place, tip=Tinted(None, 2))
+
+    def lay(self, points: np.ndarray) -> Rect:
+        """More points, as `Scenery.lay`; returns the pixels whose ways may be others now."""
+        waited, dabs = self._stroker.waits, self._stroker.walk(points)
+        stood = Rect(0, 0, 0, 0)
+        if waited:
+            stood, self._mask = self._mask.rect, self._blank()
+        dabs = self._stroker.rest() if self._stroker.waits else dabs
+        first = dabs.shape[1] - tints_of(self._brush) - PLACE_COLUMNS
+        ways = _turned(dabs[:, first : first + 2], self._copies)
+        touched: set[TileKey] = set()
+        done = 0
+        for part in copied(dabs, self._copies):
+            told = ways[done : done + len(part)]
+            touched |= self._mask.paint(np.concatenate([part[:, :_PLAIN], told], axis=1))
+            done += len(part)
+        return tile_bounds(touched).union(stood)
+
+    @property
+    def ways(self) -> dict[TileKey, np.ndarray]:
+        """Gives what tiles know so far: float32 (2, 128, 128) each, which later dabs do not change."""
+        return dict(self._mask.coverage().tints or {})
+
+
+def _turned(ways: np.ndarray, copies: Copies | Torus) -> np.ndarray:
+    """Returns the ways of dabs, float64 (n, 2), each followed by those of its copies."""
+    told, each = (copies.copies, copies.each) if isinstance(copies, Torus) else (copies, 1 + len(copies))
+    turned = copied_places(ways, tuple(one._replace(x=0.0, y=0.0) for one in told)).reshape(-1, 2)
+    return np.repeat(turned, each // (1 + len(told)), axis=0)
 
 
 def reader(root: Group, name: str, level: int, cache: TileCache | None) -> Read:

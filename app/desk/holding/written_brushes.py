@@ -12,6 +12,7 @@ from engine.texture.expression.library.bundled_texts import written_library
 
 GROUP = "Written"
 _LINES = {"Cross-hatching", "Hatching with a pen"}  # which leave the paper free between them
+_DRAWN = {"Hatching along the stroke"}
 _SHAPE = {"radius": 48, "hardness": 0.95, "spacing": 0.12, "dynamics": {"radius": [[0, 0.6], [1, 1]]}}
 
 
@@ -29,6 +30,8 @@ def _definition(title: str, text: str) -> DefineTexture:
 
 def _brush(title: str) -> Brush:
     part = {"texture": title, "amount": 1}
+    if title in _DRAWN:  # its lines are of the hand's colour, on white
+        return settings.from_json({**_SHAPE, "dynamics": {}, "ink": [{**part, "colour": "#ffffff", "fixed": True}]})
     own = {**part, "fixed": True}  # it has colours of its own, whatever the hand paints with
     return settings.from_json({**_SHAPE, **({"density": part} if title in _LINES else {"ink": [own]})})
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -13,8 +14,11 @@ from engine.texture.expression.sampling.errors import POINT_SIDE
 from engine.texture.expression.written import (
     CHARACTERS_MOST,
     FELT,
+    FULL_TURN,
     OWN_RIM,
+    OWN_WAY,
     PRESSURE,
+    STROKE_WAYS,
     Adjustable,
     WrittenError,
     WrittenText,
@@ -35,7 +39,7 @@ PERIOD = 64.0  # pixels, usually
 PERIOD_LEAST, PERIOD_MOST = 2.0**-10, 2.0**40
 _NEAR = 12  # levels finer: where all octaves are in sight
 _DEEPEST = 1 << 16
-_TOLD_BY = {PRESSURE: "weight", OWN_RIM: "rim"}  # members of a definition that tell one of each
+_TOLD_BY = {PRESSURE: "weight", OWN_RIM: "rim", OWN_WAY: "direction"}  # members of a definition that tell one of each
 _NAMED_DEEP = 12  # texts that name textures, within one another
 
 
@@ -58,7 +62,7 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
         written = read(text)
         values = chosen_values(written, parameters.get("values", {}))
         for name in written.felt:  # as values more, which are the stroke's to set
-            values = (*values, (FELT[name], _felt(_TOLD_BY[name], parameters)))
+            values = (*values, (FELT[name], _felt(name, parameters)))
         named = _named(parameters.get("named", {}))
         check_woven(text, values, named, seed, float(period))
     except WrittenError as error:
@@ -68,7 +72,10 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
         raise FieldError("stages", described(stages), f"an integer from {STAGES_LEAST} to {STAGES_MOST}")
     assert isinstance(stages, int)
     if len(written.felt) > 1 and stages > USUAL_STAGES:
-        raise FieldError("stages", described(stages), f"at most {USUAL_STAGES} of both the pressure and the rim")
+        told = ", ".join(written.felt)
+        raise FieldError("stages", described(stages), f"at most {USUAL_STAGES} of a text that goes by {told}")
+    if len(written.felt) == len(FELT):
+        raise FieldError("text", "pressure, rim and direction", "two of them at most")
     return Expression(base, text, float(period), level, seed, values, False, named, stages)
 
 
@@ -90,17 +97,21 @@ def expression_of_key(key: Sequence[object], of_key: Callable[[object], Instance
     pairs = [(str(name), value) for name, value in zip(key[6::2], key[7::2], strict=True)]
     values = {name: value for name, value in pairs if not name.startswith('"')}
     named = {name.strip('"'): of_key(inner) for name, inner in pairs if name.startswith('"')}
-    felt = {member: values.pop(FELT[name], 1.0) for name, member in _TOLD_BY.items()}
+    felt = {member: values.pop(FELT[name], 0.0) for name, member in _TOLD_BY.items() if FELT[name] in values}
     told = {"text": key[2], "period": key[3], "level": key[4], "seed": key[5], **felt}
     made = expression({**told, "values": values, "named": named}, base)
     return replace(made, covers=key[0] == "expression-cover")
 
 
-def _felt(member: str, parameters: Mapping[str, object]) -> float:
-    value = parameters.get(member, 1.0)
-    if not is_within(value, 0.0, 1.0):
-        raise FieldError(member, described(value), "a number from 0 to 1")
+def _felt(name: str, parameters: Mapping[str, object]) -> float:
+    """Returns what a definition tells for the pressure or the like; of directions, in degrees, the nearest one."""
+    member, usual, most = (_TOLD_BY[name], 0.0, FULL_TURN) if name == OWN_WAY else (_TOLD_BY[name], 1.0, 1.0)
+    value = parameters.get(member, usual)
+    if not is_within(value, 0.0, most):
+        raise FieldError(member, described(value), f"a number from 0 to {most:g}")
     assert isinstance(value, int | float)
+    if name == OWN_WAY:
+        return math.floor(value * STROKE_WAYS / FULL_TURN + 0.5) % STROKE_WAYS * FULL_TURN / STROKE_WAYS
     return float(value) + 0.0
 
 

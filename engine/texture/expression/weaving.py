@@ -23,7 +23,17 @@ from engine.texture.expression.naming.elsewhere import Elsewhere
 from engine.texture.expression.sampling.errors import Errors
 from engine.texture.expression.slopes import Slopes
 from engine.texture.expression.spreads import Spreads
-from engine.texture.expression.written import FELT, PICK, SLIDER, STROKE_NAMES, Term, WrittenError, WrittenText
+from engine.texture.expression.written import (
+    FELT,
+    FULL_TURN,
+    OWN_WAY,
+    PICK,
+    SLIDER,
+    STROKE_NAMES,
+    Term,
+    WrittenError,
+    WrittenText,
+)
 
 NESTED_MOST = 160  # parts within one another, lines that others refer to counted in
 _NARROW = 1e-9
@@ -323,11 +333,23 @@ def _name(weaver: Weaver, term: Term, env: Env) -> Value:
     if term.told in FELT:
         felt = setting.values.get(FELT[term.told], 1.0)
         assert not isinstance(felt, str)
+        if term.told == OWN_WAY:
+            felt = _way(weaver, term) * (math.tau / FULL_TURN)
         return Value((weaver.graph.constant(felt),))
     if term.told in STROKE_NAMES and weaver.scene is not None:
         return Value((weaver.scene.named(weaver, term),))
     told = {"fw": setting.width, "level": float(setting.level), "seed": float(setting.seed % (1 << 24))}
     return Value((weaver.graph.constant(told[term.told]),))
+
+
+def _way(weaver: Weaver, term: Term) -> float:
+    """Returns the direction of the stroke in degrees, of which only the text of an ink knows."""
+    told = weaver.setting.values.get(FELT[OWN_WAY])
+    if weaver.scene is not None:
+        weaver.refuse(term, OWN_WAY, '"heading" in what is placed along a stroke')
+    if not isinstance(told, float):
+        weaver.refuse(term, f"{OWN_WAY} in a texture by its name", "a texture that goes by no stroke")
+    return told
 
 
 def _first(weaver: Weaver, term: Term, env: Env) -> Value:

@@ -19,8 +19,13 @@ from engine.numeric.formula import CONSTANTS
 from engine.numeric.reader import ARITHMETIC_SIGNS, NUMBER, Reader, Token, Words, quoted, tokens
 
 CHARACTERS_MOST, LINES_MOST, PARTS_MOST, DEPTH_MOST = 16_384, 64, 2_000, 40
-PRESSURE, OWN_RIM = "pressure", "rim"  # what a stroke tells of each of its pixels,
-FELT = {PRESSURE: PRESSURE, OWN_RIM: "the rim"}  # as values of a text beside those of its sliders
+PRESSURE, OWN_RIM, OWN_WAY = "pressure", "rim", "direction"  # what a stroke tells of each of its pixels,
+FELT = {
+    PRESSURE: PRESSURE,
+    OWN_RIM: "the rim",
+    OWN_WAY: "the direction",
+}  # as values of a text beside those of its sliders
+STROKE_WAYS, FULL_TURN = 16, 360.0  # directions that differ, and degrees
 STROKE_NAMES = {
     "along": "how far along its stroke a place lies",
     "across": "how far to the right of its stroke a place lies, seen along it",
@@ -34,6 +39,7 @@ _YIELDING = (
     *PLACERS,
     OUTER_WORD,
     OWN_RIM,
+    OWN_WAY,
 )  # that a line may have for its name, as in old texts
 PLACE_NAMES = {
     **STROKE_NAMES,
@@ -43,6 +49,7 @@ PLACE_NAMES = {
     "level": "the level that is looked at: each has twice the pixels of the one before",
     PRESSURE: "how hard the pen pressed, 0 to 1; 1 where there is no pen",
     OWN_RIM: "how far within its stroke's rim a place lies, 0 to 1: a radius of the brush; 1 where there is no stroke",
+    OWN_WAY: "which way its stroke runs, in radians, clockwise from rightwards: one of 16",
     "seed": "the number that tells one texture from another of the same text",
 }
 SLIDER, PICK = "slider", "pick"

@@ -24,7 +24,7 @@ from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
 from engine.texture.expression.sampling.far_fit import FITTED_BELOW, fit_to_near, near_level, shown_at_places
 from engine.texture.expression.sampling.sample_trial import measured_side, samples_of
 from engine.texture.expression.weaving import Setting, Woven
-from engine.texture.expression.written import FELT, OWN_RIM, PRESSURE
+from engine.texture.expression.written import FELT, OWN_RIM, OWN_WAY, PRESSURE, STROKE_WAYS
 from engine.texture.record import Instance
 
 USUAL_STAGES, STAGES_LEAST, STAGES_MOST = 5, 2, 9  # pressures from 0 to 1, between which is mixed
@@ -80,6 +80,11 @@ class Expression:
     def rims(self) -> int:
         """Gives how many textures of as many distances from the rim are mixed where that counts, else 1."""
         return self._stages_of(OWN_RIM)
+
+    @property
+    def ways(self) -> int:
+        """Gives how many textures of as many directions of the stroke there are where that counts, else 1."""
+        return STROKE_WAYS if any(name == FELT[OWN_WAY] for name, _ in self.values) else 1
 
     def _stages_of(self, felt: str) -> int:
         return self.tabulated if any(name == FELT[felt] for name, _ in self.values) else 1

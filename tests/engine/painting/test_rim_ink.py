@@ -1,4 +1,4 @@
-"""Ink that goes by the distance from the stroke's rim: the same while it is drawn, when it is done, and played."""
+"""Ink that goes by the distance from the stroke's rim, and the way it runs: the same drawn, done, kept and played."""
 
 import json
 
@@ -11,10 +11,14 @@ from engine.brush.mixture import mixture
 from engine.brush.settings import from_json
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
+from engine.checks.field_error import FieldError
+from engine.files.fault import FileError
 from engine.numeric.address import Rect, TileKey
 from engine.painting import recording
 from engine.painting.textures import Texture
 from engine.session.replay import replay
+from engine.texture.expression.defined import expression
+from engine.texture.table import from_key
 
 BRUSH = {"radius": 18, "hardness": 1, "dynamics": {}, "ink": [{"texture": "t"}]}
 SEEN = Rect(0, 0, 200, 96)
@@ -49,6 +53,53 @@ def test_a_rim_is_another_colour_and_the_same_however_it_is_drawn(tmp_path, more
     if not more:
         top = np.flatnonzero(played[3, :, 90] > 0.9)[0]
         assert played[0, top, 90] > 0.9
+
+
+TURNED = "stripes((y*cos(direction) - x*sin(direction))*6, 0.4)"
+AROUND = [[30, 48], [90, 30], [170, 24], [178, 70], [110, 76]]
+
+
+@pytest.mark.parametrize("more", [{}, {"copies": [[0, 1, 120, -40, True]]}])
+def test_a_texture_is_turned_one_of_sixteen_ways_however_it_is_drawn(tmp_path, more):
+    told = {"do": "stroke", "points": AROUND, "brush": BRUSH, **more}
+    painting = opened(tmp_path, TURNED, told).painting
+    played = shown(painting)
+    session = opened(tmp_path, TURNED)
+    if not more:
+        live = session.begin(0, (0, 0), from_json(BRUSH))
+        for point in AROUND:
+            live.add(np.array([[*point, 1.0, 0.0, 0.0, 0.0]]))
+            seen = live.preview(SEEN).data[:4]
+        session.finish(live)
+        assert (shown(session.painting) == played).all()
+        assert np.abs(seen - played).max() <= 2.0**-15
+    fixed = {**BRUSH, "ink": [{"texture": "t", "direction": 337.5}]}  # as the first piece runs
+    alike = shown(opened(tmp_path, TURNED, {**told, "brush": fixed}).painting)
+    assert (alike == played)[:, :, 40:70].all()
+    assert not (alike == played)[:, 30:60, 150:190].all()
+    paint = next(iter(layers(painting.root))).pyramid.levels[0]
+    inks = {ink for record in paint.values() for ink in record.inks}
+    assert len(inks) > 3
+    assert all(from_key(list(ink.key), {}) == ink for ink in inks)
+
+
+def test_a_direction_is_for_strokes_alone(tmp_path):
+    fill = {"do": "fill", "brush": BRUSH}
+    select = {"do": "select", "rect": [0, 0, 0, 9, 9]}
+    stroke = {"do": "stroke", "points": POINTS}
+    for done, expected in (
+        ([select, fill], "a fill runs no way"),
+        ([{**stroke, "brush": {**BRUSH, "mode": "raster"}}], "a direction is for paint"),
+        ([{**stroke, "brush": {**BRUSH, "wet": {}}}], "where a brush is wet"),
+        ([{**stroke, "brush": {"density": {"texture": "t"}}}], "that is for ink"),
+        ([{"do": "texture", "name": "u", "maker": "expression", "text": '"t"(x, y)'}], "a texture that is not"),
+    ):
+        with pytest.raises(FileError, match=expected):
+            opened(tmp_path, TURNED, *done)
+    with pytest.raises(FieldError, match="heading"):
+        expression({"text": "row(direction, 1, 1)"}, 0)
+    with pytest.raises(FieldError, match="by its name"):
+        expression({"text": '"brushed-fur"()'}, 0)
 
 
 def test_other_modes_take_the_middle_of_a_stroke_at_full_pressure():
