@@ -9,15 +9,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import platformdirs
-
 from engine.brush import parts, settings
 from engine.brush.parts import Surface
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.checks.values import described
 from engine.files.atomic import replacing
-from engine.makers import definitions
+from engine.makers import definitions, own_inks
 from engine.painting.commands import DefineTexture
 
 BYTES_CAP = 1 << 20
@@ -66,7 +64,7 @@ def papers_folder() -> Path:
 
 def own_folder() -> Path:
     """Tells where the artist's own presets are kept."""
-    return platformdirs.user_config_path("inkfall") / "brushes"
+    return own_inks.own_brushes_folder()
 
 
 def load_brushes(folder: Path) -> tuple[list[Preset], list[str]]:

@@ -1,8 +1,9 @@
-"""What the names in a written texture stand for: kinds of texture, inks of brushes and examples that come along, and
-the textures of a painting.
+"""What the names in a written texture stand for: kinds of texture, inks of brushes and examples that come along, the
+textures of a painting, and the inks of the artist's own brushes.
 
-What comes along wins.  A name is looked up where the texture is defined, and what it stands for is kept with the
-definition: nothing that is defined later changes it, so no name leads to itself.
+What comes along wins, and the painting over brushes of one's own.  A name is looked up where the texture is defined,
+and what it stands for is kept with the definition: nothing that is defined later changes it, so no name leads to
+itself.
 """
 
 from __future__ import annotations
@@ -16,7 +17,6 @@ from typing import Any
 
 from immutables import Map
 
-from engine.brush import settings
 from engine.brush.checks import frozen
 from engine.brush.ink import named as of_component
 from engine.brush.parts import Component
@@ -24,6 +24,7 @@ from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.checks.values import described
 from engine.makers import definitions
+from engine.makers.own_inks import Inked, inked, own_ink, own_inks
 from engine.numeric.reader import quoted
 from engine.painting.capture import read_straight
 from engine.painting.commands import DefineTexture
@@ -34,6 +35,7 @@ from engine.texture.expression.library.bundled_texts import written_library
 from engine.texture.expression.naming.bound import bound_anew
 from engine.texture.expression.written import WrittenError, WrittenText, close_to
 from engine.texture.expression.written_ink import Expression, woven_line
+from engine.texture.gradient import Gradient
 from engine.texture.image import Image, ImageSource
 from engine.texture.record import Instance, pictures_of
 from engine.texture.shaped import shaped
@@ -45,7 +47,7 @@ _SLOW = (*definitions.MATCHED, definitions.LEARN, "example", "canvas")  # makers
 _USUAL_PERIOD = 32.0
 
 _INKS_KEPT = 64
-_INKS: dict[tuple[str, int, int], Instance] = {}  # by name, seed and arithmetic
+_INKS: dict[tuple[object, ...], Instance] = {}  # by name, or file and when it changed, seed and arithmetic
 
 Define = Callable[[DefineTexture], Texture]
 
@@ -97,9 +99,11 @@ class Namesakes:
         kind = KINDS.get(name)
         if kind is not None and not kind.pictured and kind.parameters:
             return bound_anew(instance(name, {}, 0, self.seed, arithmetic=self.arithmetic))
-        found = self._of_brush(name) if name in bundled_inks() else None
-        found = found or (bundled_picture(name) if name in bundled_pictures() else None)
-        return found or self._of_painting(name)
+        if name in bundled_inks():
+            return self._of_brush(name, bundled_inks()[name], (name,))
+        found = bundled_picture(name) if name in bundled_pictures() else self._of_painting(name)
+        own = own_ink(name) if found is None else None
+        return found if own is None else self._of_brush(name, *own)
 
     def _of_painting(self, name: str) -> Instance | None:
         texture = self.textures.get(name)
@@ -108,17 +112,21 @@ class Namesakes:
         own = {} if "seed" in texture.parameters or texture.kind != EXPRESSION else {"seed": self.seed}
         return bound_anew(texture.instance(own, 0, self.seed))
 
-    def _of_brush(self, name: str) -> Instance:
-        """Returns what the ink of a brush that comes along looks like, as a written texture of that."""
-        about = name, self.seed, self.arithmetic
+    def _of_brush(self, name: str, brush: Inked, known: tuple[object, ...]) -> Instance:
+        """Returns what the ink of a brush looks like, as a written texture of that."""
+        about = *known, self.seed, self.arithmetic
         if about not in _INKS:
             if len(_INKS) >= _INKS_KEPT:
                 _INKS.clear()
-            _INKS[about] = self._ink(name)
+            _INKS[about] = self._ink(name, *brush)
         return _INKS[about]
 
-    def _ink(self, name: str) -> Instance:
-        brush, textures = bundled_inks()[name]
+    def _ink(self, name: str, brush: Brush, textures: tuple[DefineTexture, ...]) -> Instance:
+        if any(command.maker in _SLOW for command in textures):
+            found = f"{quoted(name)}, whose ink is made from an example or the canvas"
+            raise FieldError(
+                "ink", found, "a brush whose ink is not: that texture may be named once the painting has it"
+            )
         defined = {command.name: self.define(command) for command in textures}
         named, parts, periods = dict[str, Instance](), list[str](), list[float]()
         for number, component in enumerate(brush.ink, 1):
@@ -127,16 +135,29 @@ class Namesakes:
                 raise FieldError("ink", f"{quoted(name)}, made for a stroke", "a texture that is not")
             periods.append(_period(own))
             named[str(number)] = bound_anew(shaped(own, component.shaping, brush.shaping))
-            parts.append(_part(number, component, periods[0] / periods[-1], _shows_colours(own)))
+            often = periods[0] / periods[-1]
+            parts.append(_part(number, component, often, _shows_colours(own), getattr(own, "cover", None) is not None))
         text = "\n".join((f"ground = {brush.colour}", " + ".join(("ground", *parts))))
         return expression({"text": text, "named": named, "seed": self.seed}, 0)
 
     def _expected(self, name: str) -> str:
         kinds = [row.name for row in KINDS.values() if row.parameters and not row.pictured]
-        every = [*written_library(), *kinds, *bundled_inks(), *bundled_pictures(), *self.textures]
+        every = [*written_library(), *kinds, *bundled_inks(), *bundled_pictures(), *self.textures, *own_inks()]
         like = close_to(name, every)
-        about = "the name of a texture that comes along or that the painting has"
+        about = "the name of a texture that comes along, that the painting has, or of a brush of your own"
         return about + (f", such as {like}" if like else "")
+
+
+def texture_names(textures: Mapping[str, Texture]) -> tuple[tuple[str, str], ...]:
+    """Returns all names that a text may call textures by over a painting with some `textures`, in the order of the
+    alphabet, each with what it is; as short as the kind of it where nothing else is told."""
+    found = dict.fromkeys(own_inks(), "the ink of a brush of your own")
+    found |= {name: f"a texture of the painting: {texture.kind}" for name, texture in textures.items()}
+    found |= dict.fromkeys(bundled_pictures(), "the picture of an example")
+    found |= dict.fromkeys(bundled_inks(), "the ink of a brush")
+    found |= {row.name: row.tooltip for row in KINDS.values() if row.parameters and not row.pictured}
+    found |= {name: told.about for name, told in written_library().items()}
+    return tuple(sorted(found.items()))
 
 
 def with_names(told: Map[str, Any], known: Namesakes) -> Texture:
@@ -169,28 +190,28 @@ def _period(made: Instance) -> float:
 def _shows_colours(made: Instance) -> bool:
     if isinstance(made, Expression):
         return woven_line(made.text, made.values, made.named, made.seed, 0, made.period).value.coloured
-    return bool(getattr(made, "coloured", False) or isinstance(made, Image))
+    return bool(getattr(made, "coloured", False) or isinstance(made, Image | Gradient))
 
 
-def _part(number: int, component: Component, often: float, coloured: bool) -> str:
+def _part(number: int, component: Component, often: float, coloured: bool, clear: bool) -> str:
     """Returns what a component adds to the brush's colour, as `engine.brush.ink` mixes it."""
     place = "x, y" if often == 1.0 else f"x*{often:.9g}, y*{often:.9g}"
     seen = f'"{number}"({place})'
+    if clear:
+        return f"(over({component.colour}*{seen}, ground) - ground)*{component.amount:.9g}"
     if coloured:
         return f"({component.colour}*{seen} - ground)*{component.amount:.9g}"
     return f"({component.colour} - ground)*({component.amount:.9g}*{seen})"
 
 
 @lru_cache(1)
-def bundled_inks() -> Mapping[str, tuple[Brush, tuple[DefineTexture, ...]]]:
+def bundled_inks() -> Mapping[str, Inked]:
     """Returns the brushes that come along and have textures in their ink, with what defines these, by name."""
     found = {}
     for path in sorted((_PALETTES / "brushes").glob("*.json")):
-        told = json.loads(path.read_text("utf-8"))
-        brush = settings.from_json(told.get("brush", told))
-        textures = definitions.used(brush, definitions.read(told.get("textures", []), "textures", path.parent))
-        if brush.ink and brush.row.lays_ink and not any(command.maker in _SLOW for command in textures):
-            found[path.stem] = brush, textures
+        brush = inked(json.loads(path.read_text("utf-8")), path.parent)
+        if brush is not None and not any(command.maker in _SLOW for command in brush[1]):
+            found[path.stem] = brush
     return Map(found)
 
 

@@ -8,7 +8,8 @@ from immutables import Map
 
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
-from engine.makers.namesakes import bundled_inks, bundled_pictures
+from engine.makers import own_inks
+from engine.makers.namesakes import bundled_inks, bundled_pictures, texture_names
 from engine.numeric.address import Rect
 from engine.painting import recording
 from engine.painting.commands import DefineTexture
@@ -109,6 +110,51 @@ def test_what_comes_along_wins(session):
     written(session, "rock", "1")
     written(session, "clouds", "1")
     assert (written(session, "t", '"rock"() + "clouds"()') == plain).all()
+
+
+RAMP = ((0.0, "#102040"), (0.25, "#e0a030"), (1.0, "#ffffff"))
+
+
+@pytest.mark.parametrize("kind", ["linear", "radial", "angular"])
+def test_a_gradient_begins_at_0_and_ends_at_1(session, kind):
+    session.do(DefineTexture("sunset", "gradient", Map({"kind": kind, "from": (0, 0), "to": (64, 0), "ramp": RAMP})))
+    seen = look(session.painting, "sunset")
+    named = written(session, "t", '"sunset"(x, y)')
+    assert np.abs(named - seen).max() < 1 / 255
+    session.do(DefineTexture("sunset", "rock"))
+    assert (look(session.painting, "t") == named).all()
+
+
+def test_a_brush_of_ones_own_is_kept_when_its_file_is_gone(session, tmp_path, monkeypatch):
+    monkeypatch.setattr(own_inks, "own_brushes_folder", lambda: tmp_path)
+    ink = [{"texture": "grain", "amount": 0.8, "colour": "#e0a030"}, {"texture": "rock", "amount": 0.3}]
+    brush = {"name": "Dry Heather", "brush": {"colour": "#204060", "ink": ink}}
+    texture = {"name": "grain", "maker": "stripes", "period": 7}
+    file = tmp_path / "dry.json"
+    file.write_text(json.dumps({**brush, "textures": [texture]}))
+    (tmp_path / "broken.json").write_text("{")
+    seen = written(session, "t", '"Dry Heather"(x*2, y)')
+    assert seen.shape[0] == 8
+    assert dict(texture_names(session.painting.textures))["Dry Heather"] == "the ink of a brush of your own"
+    file.write_text(json.dumps({**brush, "brush": {"colour": "#ffffff", "ink": ink[1:]}}))
+    assert (written(session, "other", '"Dry Heather"(x*2, y)') != seen).any()
+    file.unlink()
+    assert (look(session.painting, "t") == seen).all()
+    again = Session(first_painting(recording.Header(arithmetic=2)), folder=tmp_path)
+    again.do(next(command for command in session.recording().commands if command.name == "t"))
+    assert (look(again.painting, "t") == seen).all()
+    with pytest.raises(Refusal, match="expected the name of"):
+        written(session, "u", '"Dry Heather"()')
+    file.write_text(json.dumps({**brush, "textures": [{"name": "grain", "maker": "canvas", "rect": [0, 0, 0, 9, 9]}]}))
+    with pytest.raises(Refusal, match="made from an example or the canvas"):
+        written(session, "u", '"Dry Heather"()')
+
+
+def test_all_names_are_told_with_what_they_are(session):
+    told = dict(texture_names(session.painting.textures))
+    assert told["photo"] == "a texture of the painting: image"
+    assert told["moss"] == "the ink of a brush"
+    assert {"felt", "rock", "red-brick", "mine"} <= set(told)
 
 
 def test_what_comes_along_has_names_that_are_few_enough_to_tell_apart():
