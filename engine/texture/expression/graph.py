@@ -13,7 +13,7 @@ from engine.numeric import elementary
 from engine.texture.expression.codes import COST, Code
 from engine.texture.expression.naming.elsewhere import Elsewhere
 
-NODES_MOST = 5000  # operations of one texture
+NODES_MOST = 4000  # operations of one texture
 NO_ERROR = 2  # the node of 0, in every graph
 ASKED_COST = 150.0  # nanoseconds a sample, about, of a channel of a texture of another maker
 
@@ -75,6 +75,8 @@ class Graph:
     def __init__(self) -> None:
         self.operations: list[Operation] = []
         self._known: dict[tuple[object, ...], int] = {}
+        self._numbers: dict[float, int] = {}  # the nodes of numbers,
+        self._values: dict[int, float] = {}  # and the other way round
         self.x, self.y = self.node(Code.X), self.node(Code.Y)
         self.ways = {self.x: (1.0, 0.0), self.y: (0.0, 1.0)}  # of what is told by place: how fast it rises
         self.elsewhere: list[Elsewhere] = []  # textures of other makers that it asks for
@@ -85,8 +87,8 @@ class Graph:
         """Returns the node of an operation; TooLarge if there are too many."""
         work = _WORKED.get(code)
         if work is not None and not numbers:
-            given = [self.value(part) for part in parts]
-            if None not in given:
+            given = [self._values[part] for part in parts if part in self._values]
+            if len(given) == len(parts):
                 return self.constant(work(*given))
         told = code, parts, numbers, key, kind, slope
         found = self._known.get(told)
@@ -99,12 +101,16 @@ class Graph:
 
     def constant(self, value: float) -> int:
         """Returns the node of a number; what is none counts as 0."""
-        return self.node(Code.CONST, numbers=(value + 0.0 if math.isfinite(value) else 0.0,))
+        value = value + 0.0 if math.isfinite(value) else 0.0
+        found = self._numbers.get(value)
+        if found is None:
+            found = self._numbers[value] = self.node(Code.CONST, numbers=(value,))
+            self._values[found] = value
+        return found
 
     def value(self, node: int) -> float | None:
         """Returns the number that a node always is, if it is one."""
-        told = self.operations[node]
-        return told.numbers[0] if told.code == Code.CONST else None
+        return self._values.get(node)
 
     def add(self, a: int, b: int) -> int:
         """Returns a + b."""

@@ -21,7 +21,7 @@ from engine.texture.expression.placing.placed_things import Texts, Thing, ThingS
 from engine.texture.expression.placing.placing_words import PLACING_WORDS
 from engine.texture.expression.shape_words import SHAPE_WORDS
 from engine.texture.expression.weaving import Rule, Setting, Weaver, Woven, last_line
-from engine.texture.expression.written import WrittenText, parse_text, words
+from engine.texture.expression.written import WrittenError, WrittenText, parse_text, words
 
 COST_MOST = 50_000.0  # nanoseconds a pixel, about: a texture that takes more is refused
 _Row = tuple[int, int, Rule, str]
@@ -49,7 +49,11 @@ def weave(written: WrittenText, setting: Setting, line: int = -1) -> Woven:
     whole = _whole(written.text, tuple(sorted(setting.values.items())), setting.seed)
     scene = ThingScene(whole, False, None, True)
     weaver = Weaver(written, setting, _RULES, scene)
-    value = last_line(weaver, weaver.here, line)
+    try:
+        value = last_line(weaver, weaver.here, line)
+    except WrittenError:
+        whole.children.clear()  # what was built by then is not all of it
+        raise
     cost = cost_of(weaver.graph, value.nodes) + cost_of_things(whole)
     return Woven(weaver.graph, value, weaver.errors.rough, cost, whole, tuple(scene.takes))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from engine.numeric import elementary
 from engine.numeric.hashing import MASK32, fold_key
@@ -22,6 +23,7 @@ _SPREAD = 0.463  # its standard deviation at a gain of 1
 _FAINT = 0.35 / 255.0  # of what is left of an octave
 LOUD = 0.36  # of noise about 1/2: its standard deviation is 0.17
 OCTAVES_MOST = 32
+_OCTAVES_KEPT = 1 << 14
 _OCTAVES, _GAIN, _FINER = 8, 0.5, 2.0
 _STEEP = 0.8  # of ridges
 _TURBULENCE = 0.372  # the mean of |n|, n being noise of standard deviation 0.463
@@ -61,12 +63,14 @@ def _key(weaver: Weaver, *about: int) -> int:
 _Lattice = tuple[float, float, float, float, float]
 
 
-def _octave(weaver: Weaver, seed: int, number: int, finer: float, gain: float) -> tuple[_Lattice, int]:
+@lru_cache(_OCTAVES_KEPT)
+def _octave(seeds: tuple[int, int], number: int, finer: float, gain: float) -> tuple[_Lattice, int]:
     """Returns the lattice of an octave, and its key: octaves are shifted, that no two have their cells in line.
+    `seeds`: the texture's, and of the noise.
 
     What is left of noise of standard deviation s over w cells is s w^-3/2: beyond where that is _FAINT, none is seen.
     """
-    key = _key(weaver, Code.NOISE, seed, number)
+    key = fold_key(_DOMAIN, seeds[0], Code.NOISE, seeds[1], number)
     across, down = ((key >> bits & 0xFFFF) / 1024.0 for bits in (32, 48))
     widest = elementary.power(abs(gain) * _SPREAD / _FAINT, 2.0 / 3.0)
     return (_CELLS * finer, across, down, gain, min(max(widest, 2.0), CELLS_SEEN)), key & MASK32
@@ -88,7 +92,7 @@ def _noises(weaver: Weaver, place: list[int], seed: int, octaves: list[tuple[flo
     keys: list[int] = []
     widths, spreads = _widths(weaver, place), []
     for n, (finer, gain) in enumerate(octaves):
-        lattice, key = _octave(weaver, seed, n, finer, gain)
+        lattice, key = _octave((weaver.setting.seed, seed), n, finer, gain)
         wide = _told_width(weaver, place, widths) * lattice[0]
         spreads.append(spread_within(abs(gain) * _SPREAD, wide, *_NOISE_FADES))
         if not _unseen(weaver, widths, lattice[0], lattice[4]):

@@ -8,6 +8,7 @@ Sources, as noise, tell theirs; sums and multiples follow from these.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 from engine.numeric import elementary
@@ -16,6 +17,7 @@ from engine.texture.expression.graph import Graph, Operation, needed_by
 
 _EVEN = 1.0 / math.sqrt(12.0)  # of what rises evenly by 1
 _TYPICAL = 0.6  # of a factor
+_SPREADS_KEPT = 1 << 14
 
 
 class Spread(NamedTuple):
@@ -38,6 +40,7 @@ class Spread(NamedTuple):
 _LEVEL = Spread(0.0, 0.0)
 
 
+@lru_cache(_SPREADS_KEPT)
 def spread_within(deviation: float, width: float, half: float, power: float, seen: tuple[float, float]) -> Spread:
     """Returns the spread of something whose variance within a pixel of that width is that of all of it where the width
     is far above `half`, falling as a power; its slope tells all up to the first of `seen`, and nothing from the second

@@ -36,6 +36,7 @@ from engine.texture.expression.written import (
 )
 
 NESTED_MOST = 160  # parts within one another, lines that others refer to counted in
+ASKED_MOST = 4000  # parts that are asked for, wherever: each line anew where it is moved
 _NARROW = 1e-9
 _GAUSS = 0.28867513459481287  # of an interval: two points by which cubic functions have their mean
 _NOISY = 10.3  # a box so wide, squared, is folded as noise of variance 1 is
@@ -70,7 +71,7 @@ class Env:
     @property
     def point(self) -> Env:
         """Gives the same place, but not its mean."""
-        return replace(self, mean=False)
+        return Env(self.x, self.y, self.cell, False, self.static) if self.mean else self
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,6 +146,14 @@ class Woven:
         return self.graph.value(self.value.error) is None
 
 
+@dataclass(slots=True)
+class AskedSoFar:
+    """Counts what texts that belong together are asked for: `parts` of them, and `things` that they place."""
+
+    parts: int = 0
+    things: int = 0
+
+
 class Weaver:
     """Asks for the parts of one text; remembers what it was asked for."""
 
@@ -160,7 +169,7 @@ class Weaver:
         self._known: dict[tuple[int, Env], Value] = {}
         self.texts: dict[tuple[NamedText | str, Env], Value] = {}  # others that were asked for, and where
         self.errors = Errors(self.graph, self.width)
-        self.deep = 0
+        self.deep, self.asked = 0, AskedSoFar()
         zero = self.graph.constant(0.0)
         self.here = Env(self.graph.x, self.graph.y, (zero, zero) if scene is None else scene.cell(self.graph))
 
@@ -181,7 +190,10 @@ class Weaver:
         if self.deep >= NESTED_MOST:
             self.refuse(term, "one level more", f"{NESTED_MOST} levels at most, those of the lines before counted in")
         self.deep += 1
+        self.asked.parts += 1
         try:
+            if self.asked.parts > ASKED_MOST:
+                raise TooLarge
             return rule(self, term, env)
         except TooLarge:
             self.refuse(term, "too much at once", "fewer or shorter lines: each repeats all that it is made of")
@@ -211,7 +223,7 @@ class Weaver:
 
     def fixed(self, term: Term, env: Env, least: float, most: float, whole: bool = False) -> float:
         """Returns a part that must be a number which is the same everywhere."""
-        found = self.graph.value(self.number(term, replace(env, mean=False, static=True)).nodes[0])
+        found = self.graph.value(self.number(term, Env(env.x, env.y, env.cell, False, True)).nodes[0])
         if found is None:
             self.refuse(term, "a number that changes from place to place", "one that does not, as a number or a slider")
         if not least <= found <= most or (whole and found != math.floor(found)):
@@ -289,7 +301,7 @@ def woven_within(weaver: Weaver, written: WrittenText, told: NamedText | None = 
     other = Weaver(written, about, weaver.rules)
     other.graph, other.slopes, other.spreads = weaver.graph, weaver.slopes, weaver.spreads
     other.here, other.deep, other.scene = weaver.here, weaver.deep, weaver.scene
-    other.errors, other.texts = weaver.errors, weaver.texts
+    other.errors, other.texts, other.asked = weaver.errors, weaver.texts, weaver.asked
     return other
 
 

@@ -15,10 +15,10 @@ from typing import NamedTuple
 from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph, cost_of
 from engine.texture.expression.programs import Program, program
-from engine.texture.expression.weaving import Env, Rule, Setting, Value, Weaver, Woven
+from engine.texture.expression.weaving import AskedSoFar, Env, Rule, Setting, Value, Weaver, Woven
 from engine.texture.expression.written import STROKE_NAMES, Term, WrittenText
 
-DEEP_MOST = 4  # things within things
+DEEP_MOST, THINGS_MOST = 4, 64  # things within things, and in all, each counted wherever it is placed
 _POINT = 2.0**-30  # the width at which places and sizes are told
 LESSENED = 16384.0
 _HALF_OCTAVE = 1.189207115002721
@@ -57,6 +57,7 @@ class Thing:
     _programs: dict[tuple[str, int], Placing] = field(default_factory=dict)
     holder: Thing | None = None
     measured: tuple[float, ...] = ()
+    asking: AskedSoFar | None = None  # with all that is placed with it, as long as it is built
 
     @property
     def asks(self) -> int:
@@ -161,7 +162,10 @@ class ThingScene:
         place = zlib.crc32(weaver.written.text.encode()) ^ term.token.at
         texts = Texts(weaver.written, weaver.setting.values, weaver.setting.seed, weaver.rules)
         if place not in self.owner.children:
-            made = Thing(texts, term.parts[0], spec, self.owner.deep + 1, place)
+            weaver.asked.things += 1
+            if weaver.asked.things > THINGS_MOST:
+                weaver.refuse(term, "one thing more", f"{THINGS_MOST} at most, each counted wherever it is placed")
+            made = Thing(texts, term.parts[0], spec, self.owner.deep + 1, place, asking=weaver.asked)
             self.owner.children[place] = made
             _build(made, self.owner)
         first = CHILD + 4 * list(self.owner.children).index(place)
@@ -173,11 +177,14 @@ def _build(thing: Thing, holder: Thing) -> None:
     thing.holder = holder
     thing.look(-8)
     _ = thing.places, thing.asked
+    thing.asking = None
 
 
 def _weaver(thing: Thing, scene: ThingScene, width: float) -> Weaver:
     texts = thing.texts
-    return Weaver(texts.written, Setting(texts.values, 0, texts.seed, width), texts.rules, scene)
+    made = Weaver(texts.written, Setting(texts.values, 0, texts.seed, width), texts.rules, scene)
+    made.asked = thing.asking or made.asked
+    return made
 
 
 def _placing(weaver: Weaver, value: Value) -> Placing:

@@ -85,6 +85,15 @@ def warped():
     return "\n".join([*lines, names[-1]])
 
 
+def test_what_is_asked_for_has_an_end():
+    many = "+".join(f"scatter({{0}}, {n}, 0.3)" for n in range(2, 9))
+    things = "\n".join([f"{name} = {many.format(held)}" for name, held in ("ax", "ba", "cb")] + [many.format("c")])
+    repeats = "\n".join(["a0 = x", *(f"a{n} = repeat(a{n - 1}, 2, 2) + a{n - 1}" for n in range(1, 60)), "a59"])
+    for _ in range(2):  # what is refused is built anew
+        assert refused(things).found == "one thing more"
+        assert refused(repeats).found == "too much at once"
+
+
 def test_lines_go_on_within_brackets_and_comments_are_none():
     written = read('a = mix(#102030, // dark\n  #ffffff,\n  0.5)  // "grey"\n\n; b = a ;; b')
     assert [line.name for line in written.lines] == ["a", "b", ""]
