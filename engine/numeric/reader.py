@@ -186,13 +186,13 @@ class Reader(Cursor, Generic[_Part]):
             self.refuse("a number below 1e308", token)
         if token.kind != "name":
             return self.part(token, token.kind) if token.kind == "number" else self.literal(token, depth)
-        if token.text in self.words.functions:
+        if token.text in self.words.functions and (self.now.text == "(" or token.text not in self.words.names):
             return self.call(token, depth, *self.words.functions[token.text])
-        if token.text in self.words.constants:
-            return self.part(token, "constant")
-        if token.text not in self.words.names:
+        if token.text in self.words.names:
+            return self.part(token, "name")
+        if token.text not in self.words.constants:
             self.unknown(token)
-        return self.part(token, "name")
+        return self.part(token, "constant")
 
     def literal(self, token: Token, depth: int) -> _Part:
         """Reads what is neither number nor name."""

@@ -4,7 +4,8 @@
     moss = pick(#5a7a3a)               // a colour likewise
     mix(#302820, moss, fbm(x, y) * height)
 
-Within brackets a line goes on; what stands behind // is a comment.
+Within brackets a line goes on; what stands behind // is a comment.  A line may be called as a function or a constant
+is: with a bracket behind it the name is the function's, without it is the line's from there on.
 """
 
 from __future__ import annotations
@@ -34,13 +35,7 @@ STROKE_NAMES = {
 }
 PLACERS = ("scatter", "row")
 OUTER_WORD = "outer"
-_YIELDING = (
-    *STROKE_NAMES,
-    *PLACERS,
-    OUTER_WORD,
-    OWN_RIM,
-    OWN_WAY,
-)  # that a line may have for its name, as in old texts
+_YIELDING = (*STROKE_NAMES, OWN_RIM, OWN_WAY)  # places whose names a line may have, as in old texts
 PLACE_NAMES = {
     **STROKE_NAMES,
     "x": "the place, in periods from the left",
@@ -53,6 +48,7 @@ PLACE_NAMES = {
     "seed": "the number that tells one texture from another of the same text",
 }
 SLIDER, PICK = "slider", "pick"
+_CHOICE = ("if", "else")
 _SETTERS = {SLIDER: (3, 4), PICK: (1, 1)}
 _KINDS = ("number", "name", "colour", "string", "break", "sign")
 _TOKEN = re.compile(rf'[ \t\r]*(?:({NUMBER})|([A-Za-z_]\w*)|(#\w+)|("[^"\n]*")|([\n;])|(\*\*|<=|>=|[^\n]))', re.ASCII)
@@ -235,8 +231,7 @@ class _Text(Reader[Term]):
         _only_there(self, term, slider)
         if name:
             self._own[name] = ""
-            functions = {word: row for word, row in self.words.functions.items() if word != name}
-            self.words = replace(self.words, names=self._own, functions=functions)
+            self.words = replace(self.words, names=self._own)
         return TextLine(name, term, start.at, slider)
 
     def _is_name(self) -> bool:
@@ -246,13 +241,19 @@ class _Text(Reader[Term]):
             return False
         if token.text in _YIELDING and self._own.get(token.text):
             self._own.pop(token.text)
-        elif token.text in _YIELDING and token.text not in self._own:
             return True
-        if token.text in self.words.functions or token.text in self.words.constants or token.text in ("if", "else"):
-            self.refuse("a name of your own: this one has a meaning", token)
+        if token.text in _CHOICE or self._own.get(token.text):
+            self.refuse(f"a name of your own, such as my_{token.text}: this one has a meaning", token)
         if token.text in self._own:
-            self.refuse("a name of your own: this one is taken", token)
+            self.refuse(f"a name of your own, such as {self._free(token.text)}: this one is taken", token)
         return True
+
+    def _free(self, name: str) -> str:
+        """Returns a name like another that no line has."""
+        stem, number = name.rstrip("0123456789"), 2
+        while f"{stem}{number}" in self._own:
+            number += 1
+        return f"{stem}{number}"
 
     def literal(self, token: Token, depth: int) -> Term:
         if token.kind == "colour":

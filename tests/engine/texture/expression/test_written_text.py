@@ -2,9 +2,11 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from engine.checks.field_error import FieldError
+from engine.numeric.address import Rect
 from engine.texture.expression.defined import expression
 from engine.texture.expression.language import FUNCTIONS, read
 from engine.texture.expression.written import CHARACTERS_MOST, LINES_MOST, PARTS_MOST, Adjustable, WrittenError
@@ -26,7 +28,9 @@ REFUSED = (
     ("x +", "line 1, column 4", "the end"),
     ("a = x\nb = noyse(x, y)\nb", "line 2, column 5", '"noyse"'),
     ("a = x\n\na = y\na", "line 3, column 1", '"a"'),
-    ("noise = x\nnoise", "line 1, column 1", '"noise"'),
+    ("if = x\nif", "line 1, column 1", '"if"'),
+    ("level = x\nlevel", "line 1, column 1", '"level"'),
+    ("star = x\nstar(x, y)", "line 2, column 10", '")"'),
     ("x\ny", "line 1, column 1", "a line without a name"),
     ("mix(#102030, #ffffff)", "line 1, column 21", '")"'),
     ("noise(x)", "line 1, column 8", '")"'),
@@ -69,6 +73,18 @@ def test_a_mistake_is_told_with_its_line_and_column(text, place, found):
 def test_a_word_that_is_nearly_one_is_told():
     assert refused("fbn(x, y)").expected == "a name that there is, such as fbm"
     assert refused("tone = noise(x, y)\ntonne").expected == "a name that there is, such as tone"
+
+
+def test_a_line_may_be_called_as_a_function_or_a_constant_is():
+    named = "star = 0.5*noise(x*4, y*4)\nnoise = noise(x, y)\ne = e*star\nmix(noise, e, star(x, y, 5, 0.4, 0.2) < 0)"
+    other = "a = 0.5*noise(x*4, y*4)\nb = noise(x, y)\nc = e*a\nmix(b, c, star(x, y, 5, 0.4, 0.2) < 0)"
+    one, two = (expression({"text": text}, 0).appearance(0, Rect(0, 0, 24, 24)) for text in (named, other))
+    assert np.array_equal(one, two)
+
+
+def test_another_name_is_told_in_place_of_one_that_is_taken():
+    assert refused("level = x\nlevel").expected == "a name of your own, such as my_level: this one has a meaning"
+    assert refused("a2 = x\na3 = x\na2 = y\na2").expected == "a name of your own, such as a4: this one is taken"
 
 
 def test_too_dear_a_texture_is_refused_with_its_cost():
