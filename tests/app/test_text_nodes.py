@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.desk.workshop.text_nodes import Slot, text_nodes
-from engine.studio.workshop.workshop import language_words
+from engine.studio.workshop.language_words import language_words
 from engine.texture.expression.defined import expression
 from engine.texture.expression.language import read
 from engine.texture.expression.library.bundled_texts import written_library

@@ -10,7 +10,7 @@ from app.desk.workshop.explained import explained
 from app.desk.workshop.workshop_state import WorkshopState
 from app.desk.workshop.workshop_work import ReadText, WriteText
 from app.panels.workshop import text_colours as colours
-from app.panels.workshop.completing import function_around, offers, word_before
+from app.panels.workshop.completing import Offer, accepted, function_around, offers, word_before
 from engine.brush.parts import Component
 from engine.brush.settings import Brush
 from engine.canvas.layers import EMPTY
@@ -18,7 +18,7 @@ from engine.makers.makers import named_by
 from engine.numeric.address import Rect
 from engine.painting.commands import DefineTexture
 from engine.painting.textures import Around
-from engine.studio.workshop.workshop import language_words
+from engine.studio.workshop.language_words import language_words
 from engine.studio.workshop.workshop_records import WorkshopAsk, WorkshopSet
 from engine.texture.expression.defined import expression
 from engine.texture.expression.library.lesson_texts import lessons
@@ -40,12 +40,33 @@ def test_a_word_is_completed_by_what_begins_with_it_then_by_what_holds_it():
     assert found[:2] == ["bricks(", "bricks_random("]
     assert offers("wal", WORDS, {"wall", "tone"})[0].text == "wall"
     assert offers("bricks_random", WORDS, ()) == ()
-    assert offers("", WORDS, {"wall"}) == ()
+    assert [offer.text for offer in offers("", WORDS, {"wall"})][:2] == ["wall", "noise("]
+
+
+def test_a_texture_is_found_by_its_name_by_what_it_is_called_and_in_quotes():
+    assert [offer.text for offer in offers("roo", WORDS, ())] == ['"rooftops"(', '"clay-tiles"(']
+    assert offers('"mo', WORDS, {"moist"})[0].text == '"moss"('
+    assert offers('"', WORDS, {"wall"}, ["mine"])[0].text == '"mine"('
+    assert {offer.text[0] for offer in offers("m", WORDS, ())} == {"m"}
+
+
+@pytest.mark.parametrize(
+    ("line", "at", "text", "after"),
+    [
+        ("a = fb", 6, "fbm(", "a = fbm("), ("a = fb(x)", 6, "fbm(", "a = fbm(x)"),
+        ('a = "mo', 7, '"moss"(', 'a = "moss"('),
+        ('a = mo + "', 6, '"moss"(', 'a = "moss"( + "'), ('a = "mo"(x, y)', 7, '"moss"(', 'a = "moss"(x, y)'),
+    ],
+)  # fmt: skip
+def test_what_is_typed_gives_way_to_what_is_offered(line, at, text, after):
+    start, end, told = accepted(line, at, Offer(text, text, ""))
+    assert line[:start] + told + line[end:] == after
 
 
 @pytest.mark.parametrize(
     ("line", "at", "word"),
-    [("a = fb", 6, "fb"), ("fbm(x", 5, "x"), ("// no", 5, ""), ("#8a3", 4, ""), ("a=", 2, ""), ("a = fbm", 6, "fb")],
+    [("a = fb", 6, "fb"), ("fbm(x", 5, "x"), ("// no", 5, ""), ("#8a3", 4, ""), ("a=", 2, ""), ("a = fbm", 6, "fb"),
+        ('a = "mo', 7, '"mo'), ('a = "moss"(x', 12, "x"), ('"moss"() + "fe', 14, '"fe'), ('// "no', 6, "")],
 )  # fmt: skip
 def test_the_word_before_the_caret(line, at, word):
     assert word_before(line, at) == word
@@ -57,6 +78,9 @@ def test_the_function_around_the_caret_is_the_innermost():
     assert function_around(line, 26, WORDS).name == "mix"
     assert function_around(line, 2, WORDS).name == "mix"
     assert function_around("wall", 2, WORDS) is None
+    assert function_around("x", 1, WORDS) is None
+    assert function_around('a + "moss"(x*2, y)', 14, WORDS).name == "moss"
+    assert function_around('a + "moss"(x*2, y)', 7, WORDS).name == "moss"
 
 
 @given(st.text(alphabet=st.characters(codec="ascii", exclude_categories=["Cc"]), max_size=40))
@@ -73,6 +97,9 @@ def test_parts_are_told_apart():
         *(("x", colours.PLACE), ("*", colours.SIGN), ("0.5", colours.NUMBER_PART), (",", colours.SIGN)),
         *(("#8a3a2a", colours.COLOUR_PART), (")", colours.SIGN), ("// so", colours.NOTE)),
     ]
+    named = NAMES._replace(own=frozenset({"star"}))
+    found = [(part.text, part.kind) for part in colours.text_parts("star*star (x)", named)]
+    assert found[::2][:2] == [("star", colours.OWN_NAME), ("star", colours.FUNCTION)]
     assert colours.own_names("wall = 1; tone=2\nx == 3\n  last = 4") == {"wall", "tone", "last"}
 
 

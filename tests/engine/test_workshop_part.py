@@ -138,6 +138,7 @@ def test_what_is_looked_at_alone_is_marked_where_it_leaves_0_to_1(room):
 
 def test_all_words_are_told_once(room):
     found = [one for one in room.ask(wr.WorkshopSet("x")) if isinstance(one, wr.WorkshopWords)]
+    assert {"moss", "clay-tiles", "rock", "felt"} <= {row.name for row in found[-1].textures}
     assert {"fbm", "slider", "pick", "ramp"} <= {row.name for row in found[0].functions}
     assert all(row.form.startswith(row.name) and row.about for row in found[0].functions)
     assert not [one for one in room.ask(wr.WorkshopSet("y")) if isinstance(one, wr.WorkshopWords)]

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from imgui_bundle import ImVec2, imgui
 from imgui_bundle import imgui_color_text_edit as edit
 
 from app import theme
 from app.language import said
 from app.panels.controls import widgets as w
-from app.panels.workshop.completing import Offer, offers, word_before
+from app.panels.workshop.completing import Offer, accepted, offers, word_before
 from app.panels.workshop.text_colours import Names
 from engine.studio.workshop.workshop_records import WorkshopWords
 
@@ -20,7 +22,8 @@ _KEYS = {
     imgui.Key.keypad_enter: 0,
     imgui.Key.escape: None,
 }
-_WIDE = 26.0  # of the letters' size
+_WIDE = 28.0  # of the letters' size
+_SEEN = 7  # that are seen at a time
 _FLAGS = (
     imgui.WindowFlags_.no_title_bar
     | imgui.WindowFlags_.no_resize
@@ -38,7 +41,8 @@ class CompletionList:
     def __init__(self, editor: edit.TextEditor) -> None:
         self._editor = editor
         self._offers: tuple[Offer, ...] = ()
-        self._chosen = 0
+        self._chosen, self._first = 0, 0  # of all; the first one in sight
+        self._asked, self._word = False, ""  # what is being typed
         self._at = (0, 0)  # where the caret was
 
     @property
@@ -52,30 +56,38 @@ class CompletionList:
 
     def take_keys(self, focused: bool) -> None:
         """Does what a key asks for, and keeps it from the editor; before that is drawn."""
+        owner = imgui.get_id("completion")
+        if focused and imgui.is_key_chord_pressed(imgui.Key.mod_ctrl | imgui.Key.space):
+            self._asked = True
+            imgui.internal.set_key_owner(imgui.Key.space, owner, imgui.internal.InputFlagsPrivate_.lock_this_frame)
         if not self._offers or not focused:
             self._offers = ()
             return
-        owner = imgui.get_id("completion")
         for key, way in _KEYS.items():
             if not imgui.is_key_pressed(key):
                 continue
+            if way == 0 and self._offers[self._chosen].text == self._word:
+                self._offers = ()  # it stands there: the key is the editor's
+                return
             imgui.internal.set_key_owner(key, owner, imgui.internal.InputFlagsPrivate_.lock_this_frame)
             if way is None:
                 self._offers = ()
             elif way:
-                self._chosen = (self._chosen + way) % len(self._offers)
+                self._choose((self._chosen + way) % len(self._offers))
             else:
                 self._accept(self._chosen)
             return
 
-    def draw(self, typed: bool, names: Names, words: WorkshopWords) -> None:
-        """Draws what is offered; `typed`: the text is another one than before."""
+    def draw(self, typed: bool, names: Names, words: WorkshopWords, textures: Iterable[str]) -> None:
+        """Draws what is offered; `typed`: the text is another one than before; `textures`: the painting's."""
         at = self._editor.get_main_cursor_position()
-        if typed:
+        if typed or self._asked:
             line = self._editor.get_line_text(at.line)
-            word = word_before(line, at.index)
+            word = self._word = word_before(line, at.index)
             others = names.own - {line.partition("=")[0].strip()}
-            self._offers, self._chosen = offers(word, words, others), 0
+            self._offers = offers(word, words, others, textures) if word or self._asked else ()
+            self._chosen = self._first = 0
+            self._asked = False
         elif (at.line, at.index) != self._at:
             self._offers = ()
         self._at = at.line, at.index
@@ -87,7 +99,7 @@ class CompletionList:
         line = imgui.get_text_line_height() + 2 * padding.y
         caret = self._editor.doc_pos2_screen_pos(at)
         window = imgui.internal.get_current_window_read().root_window
-        wide, tall = _WIDE * size, len(self._offers) * line + 2 * padding.y
+        wide, tall = _WIDE * size, min(_SEEN, len(self._offers)) * line + 2 * padding.y
         x = max(window.pos.x, min(caret.x, window.pos.x + window.size.x - wide))
         below = caret.y + self._editor.get_line_height() + padding.y
         above = caret.y - tall - padding.y
@@ -98,18 +110,39 @@ class CompletionList:
         imgui.push_style_color(imgui.Col_.window_bg, theme.vec(theme.look.popup))
         imgui.begin("##completion", None, _FLAGS)
         imgui.internal.bring_window_to_display_front(imgui.internal.get_current_window())
-        for i, offer in enumerate(self._offers):
+        if imgui.is_window_hovered() and imgui.get_io().mouse_wheel:
+            self._first -= round(imgui.get_io().mouse_wheel)
+        self._first = max(0, min(self._first, len(self._offers) - _SEEN))
+        for i, offer in enumerate(self._offers[self._first : self._first + _SEEN], self._first):
             self._row(i, offer, line)
+        self._bar(ImVec2(wide, tall))
         imgui.end()
         imgui.pop_style_color()
         imgui.pop_style_var()
 
+    def _choose(self, number: int) -> None:
+        self._chosen = number
+        self._first = max(number - _SEEN + 1, min(self._first, number))
+
+    def _bar(self, size: ImVec2) -> None:
+        """Draws how many there are beside those in sight."""
+        count = len(self._offers)
+        if count > _SEEN:
+            corner, high = imgui.get_window_pos(), size.y / count
+            top, wide = corner.y + self._first * high, 0.2 * imgui.get_font_size()
+            start, end = ImVec2(corner.x + size.x - wide, top), ImVec2(corner.x + size.x, top + _SEEN * high)
+            imgui.get_window_draw_list().add_rect_filled(start, end, theme.packed(theme.look.quiet), wide / 2)
+
     def _row(self, number: int, offer: Offer, high: float) -> None:
         corner, wide = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
-        if imgui.invisible_button(f"##offer {number}", ImVec2(wide, high)):
+        imgui.invisible_button(f"##offer {number}", ImVec2(wide, high))
+        if imgui.is_item_hovered() and imgui.is_mouse_clicked(
+            imgui.MouseButton_.left
+        ):  # the press takes the focus away
             self._accept(number)
             self._editor.set_focus()
         w.named(f"offer {offer.text}")
+        w.tooltip(f"{offer.form}\n{offer.about}")
         painter, padding = imgui.get_window_draw_list(), imgui.get_style().frame_padding
         if imgui.is_item_hovered() or number == self._chosen:
             grey = theme.look.accent_soft if number == self._chosen else theme.look.hover
@@ -126,10 +159,8 @@ class CompletionList:
 
     def _accept(self, number: int) -> None:
         at, offer = self._editor.get_main_cursor_position(), self._offers[number]
-        line = self._editor.get_line_text(at.line)
-        word = word_before(line, at.index)
-        text = offer.text[:-1] if offer.text.endswith("(") and line[at.index :].startswith("(") else offer.text
-        start = edit.TextEditor.DocPos(at.line, at.index - len(word))
-        self._editor.replace_section_text(start, at, text)
-        self._editor.set_cursor(edit.TextEditor.DocPos(at.line, start.index + len(text)))
+        start, end, text = accepted(self._editor.get_line_text(at.line), at.index, offer)
+        first, last = (edit.TextEditor.DocPos(at.line, index) for index in (start, end))
+        self._editor.replace_section_text(first, last, text)
+        self._editor.set_cursor(edit.TextEditor.DocPos(at.line, start + len(text)))
         self._offers = ()

@@ -8,6 +8,7 @@ from app import theme
 from app.desk.desk import Desk
 from app.language import said
 from app.panels.controls import widgets as w
+from app.panels.workshop import text_colours
 from engine.studio.workshop.workshop_records import LINES_ACROSS, WorkshopLine
 from engine.texture.expression.written import samples_told
 
@@ -22,9 +23,10 @@ class LineMarks:
         self._rows: dict[int, tuple[int, WorkshopLine]] = {}
 
     def begin(self, desk: Desk) -> None:
-        """Takes what is known now."""
-        self._desk = desk
-        self._rows = {line.row - 1: (n, line) for n, line in enumerate(desk.workshop.scene.lines)}
+        """Takes what is known now, of the lines that stand where they stood."""
+        self._desk, rows = desk, desk.workshop.text.split("\n")
+        lines = enumerate(desk.workshop.scene.lines)
+        self._rows = {line.row - 1: (n, line) for n, line in lines if _stands(line, rows)}
 
     def draw(self, row: int, corner: ImVec2, size: ImVec2) -> None:
         """Draws what stands beside a row, counted from 0."""
@@ -59,6 +61,13 @@ class LineMarks:
             return ""
         number, values = self._rows[row][0], desk.workshop.seen.values
         return _told(values[number]) if number < len(values) else ""
+
+
+def _stands(line: WorkshopLine, rows: list[str]) -> bool:
+    """Tells whether a line is in its row still, now that the text is written on."""
+    row = rows[line.row - 1] if line.row <= len(rows) else ""
+    named = text_colours.own_names(row)
+    return line.name in named if line.name else bool(row.strip()) and not named
 
 
 def line_corners(number: int, count: int) -> tuple[ImVec2, ImVec2]:

@@ -51,13 +51,13 @@ def text_parts(line: str, names: Names) -> tuple[TextPart, ...]:
     for found in _PART.finditer(line):
         kind = _KINDS.get(found.lastindex or 7, OTHER_PART)
         if found.lastindex == 5:
-            kind = _meaning(found[0], names)
+            kind = _meaning(found[0], names, line[found.end() :].lstrip().startswith("("))
         out.append(TextPart(found.start(), found[0], kind))
     return tuple(out)
 
 
-def _meaning(name: str, names: Names) -> str:
-    if name in names.functions:
+def _meaning(name: str, names: Names, called: bool) -> str:
+    if name in names.functions and (called or name not in names.own):
         return FUNCTION
     if name in names.own:
         return OWN_NAME

@@ -15,23 +15,31 @@ from imgui_bundle import imgui_color_text_edit as edit
 from app import theme
 from app.panels.controls import widgets as w
 from app.panels.workshop import text_colours, text_letters
-from app.panels.workshop.completing import function_around
+from app.panels.workshop.completing import function_around, word_at
 from app.panels.workshop.completion_list import CompletionList
 from app.panels.workshop.text_colours import Names
 from engine.studio.workshop.workshop_records import WorkshopMistake, WorkshopWord, WorkshopWords
 
 At = edit.TextEditor.DocPos
+_BESIDE = (
+    imgui.WindowFlags_.no_background
+    | imgui.WindowFlags_.no_scrollbar
+    | imgui.WindowFlags_.no_scroll_with_mouse
+    | imgui.WindowFlags_.no_nav
+)
 _SPACING = 1.32  # of a line's height
 Beside = Callable[[int, ImVec2, ImVec2], None]  # draws what stands beside a row: its number, from 0, corner and size
 
 
 class FieldShown(NamedTuple):
-    """What the field is to show: where the text is wrong, the words of the language, and what stands beside a row."""
+    """What the field is to show: where the text is wrong, the words of the language, what stands beside a row, and the
+    names of the painting's textures."""
 
     mistake: WorkshopMistake | None
     words: WorkshopWords
     beside: Beside
     note: text_letters.Note
+    textures: tuple[str, ...] = ()
 
 
 class TextField:
@@ -47,12 +55,16 @@ class TextField:
         editor.set_show_scrollbar_mini_map_enabled(False)
         editor.set_show_current_line_highlight_enabled(False)
         editor.set_complete_paired_glyphs(False)
+        editor.set_word_wrap_enabled(True)
+        breaks = edit.TextEditor.LineBreakConfig()
+        breaks.break_after, breaks.break_before = "", " ,("  # it goes on one letter behind that
+        editor.set_line_break_config(breaks)
         editor.set_tab_size(4)
         editor.set_insert_spaces_on_tabs(True)
-        editor.set_line_decorator(text_letters.GUTTER, self._beside)
+        editor.set_line_decorator(text_letters.GUTTER, _no_mark)
         editor.set_custom_caret_renderer(text_letters.draw_caret)
         self._completion = CompletionList(editor)
-        self._shown: FieldShown | None = None
+        self._words = WorkshopWords()
         self._marked: WorkshopMistake | None = None
         self._names, self._rows = (WorkshopWords(), ""), Names()
         self._text = ""
@@ -99,7 +111,7 @@ class TextField:
 
     def draw(self, size: ImVec2, shown: FieldShown) -> None:
         """Draws it into the present window."""
-        self._shown = shown
+        self._words = shown.words
         self._mark(shown.mistake)
         corner, painter = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
         painter.add_rect_filled(corner, corner + size, theme.packed(theme.look.field), imgui.get_style().frame_rounding)
@@ -107,13 +119,16 @@ class TextField:
         self._completion.take_keys(self.focused)
         self._editor.render("##text", size)
         w.placed("text of the texture", corner, corner + size)
+        hovered = imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip)
         self.focused = imgui.is_item_focused() or self._editor_focused()
         text = self._editor.get_text()
         typed, self._text = text != self._text, text
         text_letters.draw_letters(self._editor, (corner, corner + size), self._known(), shown.note)
+        self._beside((corner, corner + size), shown.beside)
         imgui.pop_font()
-        self._completion.draw(typed and self.focused, self._known(), shown.words)
-        self._hint(corner, size, shown.words)
+        self._completion.draw(typed and self.focused, self._known(), shown.words, shown.textures)
+        if hovered:
+            self._hint(corner, size, shown.words)
 
     def _editor_focused(self) -> bool:
         window = imgui.get_current_context().nav_window
@@ -121,8 +136,7 @@ class TextField:
 
     def _known(self) -> Names:
         """Returns what names mean now."""
-        assert self._shown is not None
-        key = self._shown.words, self._text
+        key = self._words, self._text
         if key != self._names:
             functions = frozenset(row.name for row in key[0].functions)
             places = frozenset(row.name for row in key[0].names) | {"pi", "tau", "e", "if", "else"}
@@ -144,9 +158,16 @@ class TextField:
         colour = theme.packed(theme.look.warn)
         self._editor.add_squiggle(At(mistake.line - 1, start), At(mistake.line - 1, end), 0, colour)
 
-    def _beside(self, row: edit.TextEditor.Decorator) -> None:
-        if self._shown is not None:
-            self._shown.beside(row.line, imgui.get_cursor_screen_pos(), ImVec2(row.width, row.height))
+    def _beside(self, box: tuple[ImVec2, ImVec2], beside: Beside) -> None:
+        """Draws what stands beside the lines: over the editor, which knows rows alone, and a line may take several."""
+        (corner, end), high = box, self._editor.get_line_height()
+        wide = text_letters.GUTTER * self._editor.get_glyph_width()
+        imgui.set_cursor_screen_pos(corner)
+        imgui.begin_child("beside the text", ImVec2(wide, end.y - corner.y), 0, _BESIDE)
+        for line in text_letters.lines_in_sight(self._editor, corner.y, end.y):
+            at = self._editor.doc_pos2_screen_pos(At(line, 0))
+            beside(line, ImVec2(corner.x, at.y), ImVec2(wide, high))
+        imgui.end_child()
 
     def _hint(self, corner: ImVec2, size: ImVec2, words: WorkshopWords) -> None:
         """Tells what the word under the pointer does."""
@@ -154,7 +175,11 @@ class TextField:
         inside = corner.x <= mouse.x < corner.x + size.x and corner.y <= mouse.y < corner.y + size.y
         if not inside or self._completion.opened or not self._editor.is_mouse_pos_over_glyph(mouse):
             return
-        name = self._editor.get_word_at_mouse_pos(mouse)
-        found = next((row for row in (*words.functions, *words.names) if row.name == name), None)
-        if found is not None and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
-            w.tooltip(f"{found.form}\n{found.about}")
+        at = self._editor.get_doc_pos_at_mouse_pos(mouse)
+        found = word_at(self._editor.get_line_text(at.line), at.index, words)
+        if found is not None:
+            w.show_tooltip(f"{found.form}\n{found.about}")
+
+
+def _no_mark(row: edit.TextEditor.Decorator) -> None:
+    """Draws nothing: room is kept, see `_beside`."""

@@ -25,9 +25,15 @@ from app.panels.workshop.workshop_settings import draw_settings
 from app.panels.workshop.workshop_texts import draw_texts
 from engine.brush.settings import Brush
 from engine.studio.requests import Do, Swatch
-from engine.studio.workshop.workshop_records import WorkshopScene, WorkshopValues, WorkshopWords
+from engine.studio.workshop.workshop_records import (
+    WorkshopMistake,
+    WorkshopScene,
+    WorkshopValues,
+    WorkshopWords,
+)
 
 _STROKE = (112, 48)  # points of the picture of a stroke
+_TOLD = 3  # rows of what is told below the text
 _SETTLE = 0.4  # seconds from one picture of a stroke to the next
 _USES = (
     ("ink", icons.BRUSH, "Use as ink", "The brush paints with this texture"),
@@ -97,21 +103,30 @@ class WorkshopPanel(Panel):
         line, gap = imgui.get_text_line_height(), imgui.get_style().item_spacing.y
         mistake = state.scene.mistake if state.scene.text == state.text else None
         self._marks.begin(desk)
-        size = ImVec2(room.x, room.y - 2 * line - 2 * gap)
+        size = ImVec2(room.x, room.y - _TOLD * line - 2 * gap)
         if state.nodes:
             self._as_nodes(desk, size)
         else:
-            self._field.draw(size, FieldShown(mistake, state.words, self._marks.draw, self._marks.note))
+            textures = desk.known.scene.textures if desk.known.scene is not None else ()
+            shown = FieldShown(mistake, state.words, self._marks.draw, self._marks.note, textures)
+            self._field.draw(size, shown)
             if self._field.text != state.text:
                 state.edit(self._field.text)
+        self._told(desk, mistake)
+
+    def _told(self, desk: Desk, mistake: WorkshopMistake | None) -> None:
+        """Draws what the function at the caret does, and what is wrong: as many rows whatever there is to tell."""
+        function = self._field.function(desk.workshop.words)
+        imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
+        if function is None and mistake is None:
+            said.text_wrapped("Click a picture to look at a line alone; Ctrl+Space tells what may be written")
+        elif function is not None and mistake is None:
+            said.text_wrapped(f"{function.form}: {function.about}")
+        elif function is not None:
+            said.text_unformatted(function.form)
+            w.tooltip(f"{function.form}\n{function.about}")
+        imgui.pop_style_color()
         if mistake is None:
-            function = self._field.function(state.words)
-            said.text_disabled("Click a picture to look at a line alone" if function is None else "")
-            if function is not None:
-                imgui.same_line(0, 0)
-                imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
-                said.text_wrapped(f"{function.form}: {function.about}")
-                imgui.pop_style_color()
             return
         text = f"{icons.WARNING} {mistake.line}:{mistake.column}  found {mistake.found}, expected {mistake.expected}"
         imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.warn))

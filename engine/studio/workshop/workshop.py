@@ -18,20 +18,17 @@ from engine.studio import faults, results
 from engine.studio.easel import Easel
 from engine.studio.textures import structure_ready
 from engine.studio.workshop import workshop_records as wr
+from engine.studio.workshop.language_words import language_words
 from engine.studio.workshop.workshop_pictures import as_relief, as_seen, brightness, histogram_of, in_pieces
 from engine.texture.expression.defined import check_woven
 from engine.texture.expression.examined import line_look, shimmer, values_at
-from engine.texture.expression.language import FUNCTIONS, read
-from engine.texture.expression.written import PICK, PLACE_NAMES, SLIDER, Adjustable, WrittenError, WrittenText
+from engine.texture.expression.language import read
+from engine.texture.expression.written import Adjustable, WrittenError, WrittenText
 from engine.texture.expression.written_ink import Expression, Named
 
 _FIRST = 128  # pixels of a picture that is shown before it is whole
 _LOOKED = (96, 96)  # pixels over which the least and the greatest value of a line are sought
 _SHIMMERS = 64  # pixels square that are compared with the next finer level
-_SETTERS = (
-    wr.WorkshopWord(SLIDER, "slider(usual, least, most)", "a number that whoever uses the texture may set"),
-    wr.WorkshopWord(PICK, "pick(#rrggbb)", "a colour that whoever uses the texture may set"),
-)
 
 
 @dataclass(eq=False, slots=True)
@@ -201,16 +198,6 @@ class Workshop(Owned):
                     strip[:, n * side : (n + 1) * side] = as_seen(planes)
                 yield
         self._send("levels", strip)
-
-
-def language_words() -> wr.WorkshopWords:
-    """Returns all words of the language."""
-    rows = []
-    for name, row in FUNCTIONS.items():
-        form, _, about = row[3].partition(": ")
-        rows.append(wr.WorkshopWord(name, form, about))
-    names = tuple(wr.WorkshopWord(name, name, about) for name, about in PLACE_NAMES.items())
-    return wr.WorkshopWords((*rows, *_SETTERS), names)
 
 
 def taken_values(written: WrittenText, given: Mapping[str, float | str]) -> tuple[tuple[str, float | str], ...]:

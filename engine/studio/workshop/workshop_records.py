@@ -94,10 +94,11 @@ class WorkshopScene:
 
 @dataclass(frozen=True, slots=True)
 class WorkshopWords:
-    """All functions of the language, and the names of places with what they are."""
+    """All functions of the language, the names of places with what they are, and textures that come along."""
 
     functions: tuple[WorkshopWord, ...] = ()
     names: tuple[WorkshopWord, ...] = ()
+    textures: tuple[WorkshopWord, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
