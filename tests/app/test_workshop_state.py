@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from immutables import Map
 
 from app.desk.workshop.explained import explained
-from app.desk.workshop.workshop_state import WorkshopState
+from app.desk.workshop.workshop_state import USUALLY, TextTold, WorkshopState
 from app.desk.workshop.workshop_work import ReadText, WriteText
 from app.panels.workshop import text_colours as colours
 from app.panels.workshop.completing import Offer, accepted, function_around, offers, word_before
@@ -19,7 +19,7 @@ from engine.numeric.address import Rect
 from engine.painting.commands import DefineTexture
 from engine.painting.textures import Around
 from engine.studio.workshop.language_words import language_words
-from engine.studio.workshop.workshop_records import WorkshopAsk, WorkshopSet
+from engine.studio.workshop.workshop_records import WorkshopAsk, WorkshopScene, WorkshopSet
 from engine.texture.expression.defined import expression
 from engine.texture.expression.library.lesson_texts import lessons
 from engine.texture.procedural import Sawtooth, Squares, Stripes
@@ -139,10 +139,12 @@ def test_values_of_sliders_are_written_into_the_text():
 def test_a_text_comes_back_from_its_file_with_its_period(tmp_path):
     path = tmp_path / "wall.inktexture"
     WriteText(path, "// a wall\nbricks(x, y)\n", 96.0).carry_out()
-    assert ReadText(path).carry_out() == ("// a wall\nbricks(x, y)\n", 96.0)
+    assert ReadText(path).carry_out() == ("// a wall\nbricks(x, y)\n", TextTold(period=96.0))
     expression({"text": path.read_text()}, 0)  # as the command line reads it
     (tmp_path / "other.txt").write_text("x")
-    assert ReadText(tmp_path / "other.txt").carry_out() == ("x", None)
+    assert ReadText(tmp_path / "other.txt").carry_out() == ("x", USUALLY)
+    WriteText(path, "// stages 3\npressure*rim", 64.0, 4).carry_out()
+    assert ReadText(path).carry_out() == ("// stages 3\npressure*rim\n", TextTold(stages=4))
     (tmp_path / "bad.txt").write_bytes(b"\xff\xfe")
     with pytest.raises(OSError, match="UTF-8"):
         ReadText(tmp_path / "bad.txt").carry_out()
@@ -157,7 +159,7 @@ def test_a_brush_is_explained_by_a_text_that_shows_the_same(kind, angle, phase):
     told = Map({"period": 24.0, "angle": angle, "phase": phase})
     found = explained(Brush(colour="#000000", ink=(Component(kind, 1.0, "#ffffff", told),)), ())
     rect = Rect(0, 0, 48, 48)
-    seen = expression({"text": found.text, "period": found.period}, 0).means(0, rect)[0]
+    seen = expression({"text": found.text, "period": found.told.period}, 0).means(0, rect)[0]
     wanted = 0.5 + 0.5 * WAVES[kind](0, 24.0, angle, phase).appearance(0, rect)[0]
     assert np.abs(seen - wanted).mean() < 1e-3
 
@@ -166,8 +168,17 @@ def test_a_written_texture_is_explained_by_its_own_text_and_a_picture_not_at_all
     told = Map({"text": "a = slider(1, 0, 2)\nx*a", "period": 96.0, "values": Map({"a": 2.0})})
     ink = (Component("Mine", 1.0),)
     found = explained(Brush(ink=ink), (DefineTexture("Mine", "expression", told),))
-    assert found == (told["text"], Map({"a": 2.0}), 96.0)
+    assert found == (told["text"], TextTold(Map({"a": 2.0}), 96.0))
     assert explained(Brush(ink=ink), (DefineTexture("Mine", "image", Map({"path": "a.png"})),)) is None
     mixed = explained(Brush(ink=(*ink, Component("rock", 0.5, "#112233"))), ())
     assert "left out" in mixed.text
-    expression({"text": mixed.text, "period": mixed.period}, 0)
+    expression({"text": mixed.text, "period": mixed.told.period}, 0)
+
+
+def test_stages_are_told_where_the_text_looks_at_what_the_stroke_tells():
+    state = WorkshopState("pressure*x", stages=8)
+    assert "stages" not in state.definition("a").arguments
+    state.scene = WorkshopScene(state.text, felt=("pressure",))
+    assert state.definition("a").arguments["stages"] == 8
+    state.scene = WorkshopScene(state.text, felt=("pressure", "rim"))
+    assert "stages" not in state.definition("a").arguments  # five at most, as usual

@@ -76,6 +76,13 @@ def test_a_text_names_what_the_painting_has(room):
     assert (mistake.line, mistake.column, mistake.found) == (2, 1, '"yours"')
 
 
+def test_a_text_is_seen_at_a_pressure_and_a_distance_from_the_rim(room):
+    scene = room.scene("a = pressure\na*rim", felt=(0.5, 0.4))
+    assert scene.felt == ("pressure", "rim")
+    assert [line.least for line in scene.lines] == [pytest.approx(0.5), pytest.approx(0.2)]
+    assert room.scene("a = 0.3\na*x").felt == ()
+
+
 def test_the_first_picture_comes_before_all_else(room):
     room.workshop.handlers[wr.WorkshopSet](wr.WorkshopSet(WALL, size=(256, 256)))
     while not room.pictures():

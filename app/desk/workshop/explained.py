@@ -8,20 +8,21 @@ from typing import NamedTuple
 
 from immutables import Map
 
+from app.desk.workshop.workshop_state import TextTold
 from engine.brush.parts import Component
 from engine.brush.settings import Brush
 from engine.painting.commands import DefineTexture
+from engine.texture.expression.written import USUAL_STAGES
 
 _USUAL = 32.0  # pixels: the period of a texture that tells none
 _PERIOD_OF_TEXT = 64.0
 
 
 class Explained(NamedTuple):
-    """A text, the values of its sliders, and what it calls 1, in pixels."""
+    """A text, and what is told beside it."""
 
     text: str
-    values: Map[str, float | str]
-    period: float
+    told: TextTold
 
 
 class _Wave(NamedTuple):
@@ -76,7 +77,8 @@ def explained(brush: Brush, needs: Iterable[DefineTexture]) -> Explained | None:
     if len(brush.ink) == 1 and brush.ink[0].texture in written:
         told = {**written[brush.ink[0].texture], **brush.ink[0].parameters}
         period = told.get("period", _PERIOD_OF_TEXT)
-        return Explained(str(told["text"]), Map(told.get("values", {})), float(period))
+        stages = told.get("stages", USUAL_STAGES)
+        return Explained(str(told["text"]), TextTold(Map(told.get("values", {})), float(period), stages))
     if not any(part.texture in _SAID for part in brush.ink):
         return None
     period = next(_own_period(part) for part in brush.ink if part.texture in _SAID)
@@ -89,7 +91,7 @@ def explained(brush: Brush, needs: Iterable[DefineTexture]) -> Explained | None:
     last = "paint"
     for step in steps:
         last = step.replace("LAST", last)
-    return Explained("\n".join((*lines, last, "")), Map(), period)
+    return Explained("\n".join((*lines, last, "")), TextTold(period=period))
 
 
 def _lines(number: int, part: Component, period: float) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from immutables import Map
 
@@ -18,11 +19,23 @@ from engine.studio.workshop.workshop_records import (
     WorkshopWords,
 )
 from engine.texture.expression.library.bundled_texts import LibraryText
+from engine.texture.expression.written import STAGES_MOST, USUAL_STAGES
 
 _MAKER, WRITTEN = "expression", "Written"
 USUAL_PERIOD, PERIODS = 64.0, (4.0, 4096.0)  # pixels: usual, and what may be set
 _ALIGNED = 8  # pixels: of a multiple of that a picture begins, so that its coarser one fits
 _FARTHEST = 40  # levels up and down
+
+
+class TextTold(NamedTuple):
+    """What is told of a text beside it: the values of its sliders, its period, and for how many pressures it is."""
+
+    values: Map[str, float | str] = Map()
+    period: float = USUAL_PERIOD
+    stages: int = USUAL_STAGES
+
+
+USUALLY = TextTold()
 
 
 @dataclass(slots=True)
@@ -40,6 +53,8 @@ class WorkshopState:
     origin: tuple[int, int] = (0, 0)
     size: tuple[int, int] = (256, 256)
     lit: bool = False
+    stages: int = USUAL_STAGES  # for how many pressures, and distances from the rim, strokes have it
+    felt: tuple[float, float] = (1.0, 1.0)  # the pressure, and the distance, of what is looked at
     put: bool = False
     nodes: bool = False  # whether the text is shown as nodes
     over: tuple[int, int] | None = None
@@ -48,7 +63,8 @@ class WorkshopState:
     words: WorkshopWords = WorkshopWords()  # noqa: RUF009
     seen: WorkshopValues | None = None
     files: tuple[str, ...] | None = None  # that are kept; None: nobody has looked yet
-    library: tuple[LibraryText, ...] = ()  # that come along
+    library: tuple[LibraryText, ...] = ()  # that come along,
+    generators: tuple[LibraryText, ...] = ()  # and of these such as are for a stroke
     lessons: tuple[LibraryText, ...] = ()  # that teach, in order
     _posted: WorkshopSet | None = None
     _asked: tuple[int, int] | None = None
@@ -59,9 +75,20 @@ class WorkshopState:
         return self.scene.mistake is None and self.scene.text == self.text and bool(self.scene.lines)
 
     @property
+    def stages_most(self) -> int:
+        """Gives for how many there may be: fewer where the text looks at both."""
+        return STAGES_MOST if len(self.scene.felt) < 2 else USUAL_STAGES
+
+    @property
+    def staged(self) -> int:
+        """Gives for how many there are."""
+        return min(self.stages, self.stages_most)
+
+    @property
     def wished(self) -> WorkshopSet:
         """Gives what is looked at."""
-        return WorkshopSet(self.text, self.values, self.period, self.line, self.level, self.origin, self.size, self.lit)
+        looked = self.line, self.level, self.origin, self.size, self.lit, self.felt
+        return WorkshopSet(self.text, self.values, self.period, *looked)
 
     def ask(self, post: Callable[[Request], None]) -> None:
         """Posts what was set, when it has changed, and where the pointer is."""
@@ -72,12 +99,10 @@ class WorkshopState:
             self._asked = self.over
             post(WorkshopAsk(self.over))
 
-    def take(
-        self, text: str, name: str = "", values: Map[str, float | str] | None = None, period: float = USUAL_PERIOD
-    ) -> None:
+    def take(self, text: str, name: str = "", told: TextTold = USUALLY) -> None:
         """Takes another text into the editor, which can be undone there."""
-        self.text, self.name, self.values, self.period = text, name, values or Map(), period
-        self.line, self.put = -1, True
+        self.text, self.name, (self.values, self.period, self.stages) = text, name, told
+        self.line, self.put, self.felt = -1, True, (1.0, 1.0)
         self.look(0, (0, 0))
 
     def edit(self, text: str) -> None:
@@ -125,4 +150,5 @@ class WorkshopState:
         told: dict[str, object] = {"text": self.text, "period": self.period}
         told |= {"values": Map(moved)} if moved else {}
         told |= {"level": level} if level else {}
+        told |= {"stages": self.staged} if self.scene.felt and self.staged != USUAL_STAGES else {}
         return DefineTexture(name, _MAKER, Map(told))

@@ -9,13 +9,15 @@ from pathlib import Path, PurePath
 import platformdirs
 
 from app.desk.desk import Desk, FileWork
+from app.desk.workshop.workshop_state import USUAL_PERIOD, TextTold
 from engine.texture.expression.library.bundled_texts import generator_library, written_library
 from engine.texture.expression.library.lesson_texts import lessons
+from engine.texture.expression.written import STAGES_LEAST, STAGES_MOST, USUAL_STAGES
 
 TEXT = ".inktexture"  # the ending of a written texture
 TEXTS = (TEXT, ".txt")
 _BYTES_MOST = 1 << 16
-_PERIOD = re.compile(r"^// period (\d+(?:\.\d+)?)[ \t]*\n", re.MULTILINE)
+_TOLD = re.compile(r"^// (period|stages) (\d+(?:\.\d+)?)[ \t]*\n", re.MULTILINE)
 
 
 def own_texts() -> Path:
@@ -36,8 +38,8 @@ class ListTexts(FileWork):
     def arrive(self, desk: Desk, found: tuple[str, ...]) -> None:
         """Lists them."""
         desk.workshop.files = found
-        texts = (*written_library().values(), *generator_library().values())
-        desk.workshop.library, desk.workshop.lessons = texts, lessons()
+        desk.workshop.library, desk.workshop.lessons = tuple(written_library().values()), lessons()
+        desk.workshop.generators = tuple(generator_library().values())
         if not desk.workshop.text:
             desk.workshop.take(lessons()[0].text)
 
@@ -48,8 +50,8 @@ class ReadText(FileWork):
 
     path: PurePath
 
-    def carry_out(self) -> tuple[str, float | None]:
-        """Returns its text, and its period if it tells one."""
+    def carry_out(self) -> tuple[str, TextTold]:
+        """Returns its text, and what it tells beside that."""
         data = Path(self.path).read_bytes()
         if len(data) > _BYTES_MOST:
             raise OSError(f"{self.path.name}: found {len(data)} bytes, expected {_BYTES_MOST} at most")
@@ -57,17 +59,15 @@ class ReadText(FileWork):
             text = data.decode("utf-8-sig").replace("\r\n", "\n")
         except UnicodeDecodeError:
             raise OSError(f"{self.path.name}: found bytes that are no UTF-8, expected a text") from None
-        found = _PERIOD.search(text)
-        return _PERIOD.sub("", text, count=1), None if found is None else float(found[1])
+        told = {name: float(value) for name, value in reversed(_TOLD.findall(text))}
+        stages = max(STAGES_LEAST, min(int(told.get("stages", USUAL_STAGES)), STAGES_MOST))
+        return _TOLD.sub("", text, count=len(told)), TextTold(period=told.get("period", USUAL_PERIOD), stages=stages)
 
-    def arrive(self, desk: Desk, found: tuple[str, float | None]) -> None:
+    def arrive(self, desk: Desk, found: tuple[str, TextTold]) -> None:
         """Puts it into the workshop."""
-        text, period = found
+        text, told = found
         desk.strip = "workshop"
-        if period is None:
-            desk.workshop.take(text, self.path.stem)
-        else:
-            desk.workshop.take(text, self.path.stem, period=period)
+        desk.workshop.take(text, self.path.stem, told)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +77,7 @@ class WriteText(FileWork):
     path: Path
     text: str
     period: float
+    stages: int = USUAL_STAGES
 
     def carry_out(self) -> tuple[str, ...]:
         """Writes it; returns all that are kept."""
@@ -84,7 +85,10 @@ class WriteText(FileWork):
 
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with replacing(self.path) as file:
-            file.write(f"// period {self.period:g}\n{self.text.rstrip()}\n".encode())
+            told = f"// period {self.period:g}\n" + (
+                f"// stages {self.stages}\n" if self.stages != USUAL_STAGES else ""
+            )
+            file.write(f"{told}{self.text.rstrip()}\n".encode())
         return ListTexts().carry_out()
 
     def arrive(self, desk: Desk, found: tuple[str, ...]) -> None:
@@ -96,4 +100,4 @@ class WriteText(FileWork):
 def keep_text(desk: Desk, path: Path) -> None:
     """Keeps what is in the workshop in a file, its sliders as they stand."""
     state = desk.workshop
-    desk.work(WriteText(path, state.settled_text, state.period))
+    desk.work(WriteText(path, state.settled_text, state.period, state.staged if state.scene.felt else USUAL_STAGES))

@@ -8,13 +8,17 @@ from immutables import Map
 from app import theme
 from app.desk.colours import from_hex, to_hex
 from app.desk.desk import Desk
-from app.desk.workshop.workshop_state import PERIODS
+from app.desk.workshop.workshop_state import PERIODS, WorkshopState
 from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.colour_popup import colour_popup
 from engine.studio.workshop.workshop_records import Setting
-from engine.texture.expression.written import samples_told
+from engine.texture.expression.written import OWN_RIM, PRESSURE, STAGES_LEAST, samples_told
 
+_SEEN = {
+    PRESSURE: ("At pressure", "How hard the pen pressed in this picture: a stroke has its own pressure"),
+    OWN_RIM: ("From the rim", "How far within its stroke's rim this picture lies, 1 a radius or more"),
+}
 _TONES = ((0.86, 0.36, 0.32), (0.36, 0.72, 0.36), (0.36, 0.52, 0.90))
 
 
@@ -28,9 +32,25 @@ def draw_settings(desk: Desk) -> None:
         imgui.push_id(row[0])
         _setting(desk, row)
         imgui.pop_id()
+    if state.scene.felt:
+        _felt(state)
     if state.values:
         _values(desk)
     _facts(desk)
+
+
+def _felt(state: WorkshopState) -> None:
+    """Draws for how many pressures, and distances from the rim, there are textures, and which is looked at."""
+    most = float(state.stages_most)
+    hint = "For how many pressures, or distances from the rim, a stroke has textures: what lies between is mixed"
+    changed, value = w.slider("Stages", float(state.staged), (float(STAGES_LEAST), most), hint, form="%.0f")
+    state.stages = round(value) if changed else state.stages
+    felt = dict(zip(_SEEN, state.felt, strict=True))
+    for name in state.scene.felt:
+        label, hint = _SEEN[name]
+        changed, value = w.slider(label, felt[name], (0.0, 1.0), hint)
+        felt[name] = round(value, 3) if changed else felt[name]
+    state.felt = felt[PRESSURE], felt[OWN_RIM]
 
 
 def _setting(desk: Desk, row: Setting) -> None:
@@ -85,7 +105,7 @@ def _facts(desk: Desk) -> None:
     said.text_disabled(text)
     imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
     samples = samples_told(line.samples)
-    said.text_wrapped(f"{line.cost:,.0f} ns a pixel, {samples}")
+    said.text_wrapped(f"{line.cost:,.0f} ns a pixel, {samples}" if line.cost else "measuring…")
     imgui.pop_style_color()
     w.tooltip("What it costs, with all that it refers to; what has no exact mean is looked at in 4 or 16 points")
     if scene.shimmer >= 0.0:

@@ -15,6 +15,7 @@ from app.desk.workshop.workshop_work import ListTexts, ReadText
 from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.workshop.text_field import TextField
+from engine.texture.expression.library.bundled_texts import LibraryText
 
 _LETTERS = 18  # of a text's name: the button is as wide whatever it is called
 
@@ -63,27 +64,33 @@ def _explain(desk: Desk) -> None:
     if found is None:
         desk.say("The language has no words for what this brush paints with", bad=True)
         return
-    desk.workshop.take(found.text, desk.hand.preset, found.values, found.period)
+    desk.workshop.take(found.text, desk.hand.preset, found.told)
 
 
 def _menu(desk: Desk) -> None:
     if not imgui.begin_popup("texts"):
         return
     state = desk.workshop
-    for number, lesson in enumerate(state.lessons):
-        if said.menu_item(f"{number}  {lesson.title}##lesson", "", False)[0]:
-            state.take(lesson.text, lesson.title)
-        w.named(lesson.title)
-    imgui.separator()
-    for one in state.library:
-        if said.menu_item(f"{one.title}##library", "", False)[0]:
-            state.take(one.text, one.title)
-        w.named(one.title)
-        w.tooltip(one.about)
+    half = -(-len(state.library) // 2)
+    lists: tuple[tuple[str, tuple[LibraryText, ...]], ...] = (
+        *(("Lessons", state.lessons), ("Textures", state.library[:half]), ("", state.library[half:])),
+        ("Along a stroke", state.generators),
+    )
+    imgui.begin_table("texts", len(lists), imgui.TableFlags_.sizing_fixed_fit)
+    for title, texts in lists:
+        imgui.table_next_column()
+        said.text_disabled(title)
+        for number, one in enumerate(texts):
+            told = f"{number}  {one.title}" if texts is state.lessons else one.title
+            if said.menu_item(f"{told}##{title}", "", False)[0]:
+                state.take(one.text, one.title)
+            w.named(one.title)
+            w.tooltip(one.about)
     if state.files:
-        imgui.separator()
+        said.text_disabled("Yours")
     for path in state.files or ():
         if said.menu_item(f"{PurePath(path).stem}##{path}", "", False)[0]:
             desk.work(ReadText(PurePath(path)))
         w.named(PurePath(path).stem)
+    imgui.end_table()
     imgui.end_popup()

@@ -23,7 +23,7 @@ from engine.studio.workshop.workshop_pictures import as_relief, as_seen, brightn
 from engine.texture.expression.defined import check_woven
 from engine.texture.expression.examined import line_look, shimmer, values_at
 from engine.texture.expression.language import read
-from engine.texture.expression.written import Adjustable, WrittenError, WrittenText
+from engine.texture.expression.written import FELT, OWN_RIM, PRESSURE, Adjustable, WrittenError, WrittenText
 from engine.texture.expression.written_ink import Expression, Named
 
 _FIRST = 128  # pixels of a picture that is shown before it is whole
@@ -214,7 +214,8 @@ def _fitted(slider: Adjustable, value: object) -> float | str:
 def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
     """Returns a text that was read, and what its lines are.  WrittenError tells what is wrong with it."""
     written = read(asked.text)
-    values = taken_values(written, asked.values)
+    felt = dict(zip((PRESSURE, OWN_RIM), asked.felt, strict=True))
+    values = (*taken_values(written, asked.values), *((FELT[name], felt[name]) for name in written.felt))
     check_woven(asked.text, values, named, 0, asked.period)
     made = Expression(asked.level, asked.text, asked.period, 0, 0, values, False, named)
     lines = tuple(wr.WorkshopLine(line.name, written.place(line.at)[0], False, 1, 0.0) for line in written.lines)
@@ -222,7 +223,7 @@ def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
         lines = before.scene.lines
     sliders = tuple((name, s.usual, s.least, s.most, s.step) for name, s in written.sliders.items())
     drawn = before.scene.drawn if before is not None else 0
-    scene = wr.WorkshopScene(asked.text, None, lines, sliders, drawn=drawn)
+    scene = wr.WorkshopScene(asked.text, None, lines, sliders, drawn=drawn, felt=written.felt)
     if before is not None and before.asked.text == asked.text and len(before.scene.lines) == len(lines):
         scene = replace(scene, counts=before.scene.counts, least=before.scene.least, most=before.scene.most)
     return _Known(asked, made, scene)

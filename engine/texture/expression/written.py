@@ -27,6 +27,7 @@ FELT = {
     OWN_WAY: "the direction",
 }  # as values of a text beside those of its sliders
 STROKE_WAYS, FULL_TURN = 16, 360.0  # directions that differ, and degrees
+USUAL_STAGES, STAGES_LEAST, STAGES_MOST = 5, 2, 9  # pressures from 0 to 1, between which is mixed
 STROKE_NAMES = {
     "along": "how far along its stroke a place lies",
     "across": "how far to the right of its stroke a place lies, seen along it",

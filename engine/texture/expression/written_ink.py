@@ -24,10 +24,9 @@ from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
 from engine.texture.expression.sampling.far_fit import FITTED_BELOW, fit_to_near, near_level, shown_at_places
 from engine.texture.expression.sampling.sample_trial import measured_side, samples_of
 from engine.texture.expression.weaving import Setting, Woven
-from engine.texture.expression.written import FELT, OWN_RIM, OWN_WAY, PRESSURE, STROKE_WAYS
+from engine.texture.expression.written import FELT, OWN_RIM, OWN_WAY, PRESSURE, STROKE_WAYS, USUAL_STAGES
 from engine.texture.record import Instance
 
-USUAL_STAGES, STAGES_LEAST, STAGES_MOST = 5, 2, 9  # pressures from 0 to 1, between which is mixed
 FINEST_PIXEL = 34  # a pixel of 2^-34 periods is the last that differs from its neighbours
 _COARSEST = -40  # levels above where the period is told
 _MEMO = 256
