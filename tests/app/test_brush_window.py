@@ -80,6 +80,25 @@ def test_pictures_of_brushes_with_examples_come_when_they_are_in_sight(program):
     while blueness(app.screen()[indigo]) < 60:
         assert time.monotonic() < end, "no picture of the indigo wash"
         time.sleep(0.2)
+    app.keys("Escape")
+    houses_are_painted(app)
+
+
+def houses_are_painted(app):
+    """A brush that places things has their own colours, red roofs and pale walls, and covers no more than they do."""
+    app.click("Find", window="brushes")
+    app.fill("houses")
+    app.keys("Return")
+    bare = app.canvas()
+    app.stroke(*[(340 + 30 * i, 400 + (20 if i % 4 < 2 else -10)) for i in range(20)])
+
+    def built(screen):
+        seen = screen[60:740, 270:970]
+        laid = np.abs(seen - bare).max(axis=-1) > 10
+        red, green, blue = seen[laid].T
+        return 8000 < laid.sum() < 80_000 and min((red - green > 50).mean(), (blue > 120).mean()) > 0.05
+
+    app.until(built)
 
 
 def test_while_brushes_are_read_the_list_says_so(program):

@@ -100,7 +100,8 @@ class NodeView:
         imgui.end_group()
         imgui.end_group()
         if node.name:
-            imgui.same_line(left + (node_width(node) - 1.5) * size)
+            imgui.same_line()
+            imgui.set_cursor_pos_x(left + (node_width(node) - 1.5) * size)  # of the canvas, not of the group
             self._canvas.pin((node.name, OUT), ed.PinKind.output, f"{node.name} {OUT}", _GIVES)
         for n, row in enumerate(node.rows):
             self._row(node, n, row)

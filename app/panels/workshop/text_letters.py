@@ -78,8 +78,10 @@ def _note(painter: imgui.ImDrawList, text: str, end: ImVec2, high: float) -> Non
     if not text:
         return
     size, pad = imgui.calc_text_size(text), imgui.get_style().frame_padding.x
-    left, down = end.x - size.x - 2 * pad, (high - size.y) / 2
-    painter.add_rect_filled(ImVec2(left - pad, end.y), ImVec2(end.x, end.y + high), theme.packed(theme.look.field))
+    left, down = end.x - size.x - 2 * pad - imgui.get_style().scrollbar_size, (high - size.y) / 2
+    painter.add_rect_filled(
+        ImVec2(left - pad, end.y), ImVec2(left + size.x + pad, end.y + high), theme.packed(theme.look.field)
+    )
     said.add_text(painter, ImVec2(left, end.y + down), theme.packed(theme.look.accent), text)
 
 

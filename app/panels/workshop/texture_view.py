@@ -58,10 +58,11 @@ class TextureView:
         _ground(ImVec2(end.x - side - 4, corner.y + 4), side)
         if w.icon_button("as relief", icons.MOUNTAIN, "As heights in the light: bright is high", on=state.lit):
             state.lit = not state.lit
-        if state.level or state.origin != (0, 0):
+        if state.level or state.origin != (0, 0) or line is not None:
             _ground(ImVec2(end.x - side - 4, corner.y + 8 + side), side)
-            if w.icon_button("back to 1:1", icons.HOME, "Back to level 0, where it begins"):
+            if w.icon_button("back to 1:1", icons.HOME, "Back to the whole texture at level 0, where it begins"):
                 state.look(0, (0, 0))
+                state.line = -1
         imgui.set_cursor_screen_pos(ImVec2(corner.x, end.y + imgui.get_style().item_spacing.y))
 
     def _moves(self, desk: Desk, corner: ImVec2, hovered: bool, active: bool) -> None:
