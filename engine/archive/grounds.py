@@ -18,7 +18,7 @@ from engine.files.png_reader import PngReader
 from engine.files.png_writer import STRIP, PngWriter
 from engine.files.strict_json import Fields
 from engine.keeping.disk_raster import DiskBytes, room
-from engine.numeric.address import Rect, TileKey
+from engine.numeric.address import Rect, TileKey, lies_within
 from engine.numeric.parted import Raster
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.texture.raster import planes_of
@@ -61,7 +61,7 @@ def whole(layer: Layer, frame: Rect) -> bool:
     ground = layer.pyramid.ground
     if ground is None or layer.growth or layer.pyramid.levels is not ground.levels:
         return False
-    return frame.holds(ground.rect)
+    return lies_within(ground.rect, frame)
 
 
 def painted_since(pyramid: Pyramid) -> Iterator[tuple[TileKey, Record]]:

@@ -17,7 +17,7 @@ from engine.canvas.attenuate import effective, placed
 from engine.canvas.descent import from_afar
 from engine.canvas.store import Pyramid, Record
 from engine.canvas.tile_cache import Square, TileCache, parted, without_empty_inks
-from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.address import TILE, Rect, TileKey, lies_within
 from engine.numeric.column import Column
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
@@ -298,7 +298,7 @@ def _from_cache(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | Non
 
 
 def _keep_tiles(pyramid: Pyramid, level: int, rect: Rect, value: Planes | None, cache: TileCache, lent: bool) -> None:
-    keys = [key for key in rect.tiles(level) if rect.holds(key.rect)]
+    keys = [key for key in rect.tiles(level) if lies_within(key.rect, rect)]
     if value is None or not lent or rect.area != len(keys) * TILE * TILE or len(keys) > _LENT:
         for key in keys:
             cache.keep(pyramid, key, None if value is None else value.cut(*key.rect.slices(rect)))

@@ -13,7 +13,7 @@ from engine.canvas.growth import Growth, meets, over
 from engine.canvas.layers import Layer
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
-from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.address import TILE, Rect, TileKey, lies_within
 from engine.numeric.column import Clip
 from engine.texture.planes import COLOURS, Planes
 
@@ -55,7 +55,7 @@ def kept_planes(layer: Layer, level: int, rect: Rect, cache: TileCache) -> np.nd
         return covered(None if whole is None else whole.rgba, layer.growth, level, rect)
     found = {key: cache.view(pyramid, key) for key in rect.tiles(level)}
     if beside and not any(known for known, _ in found.values()):
-        inner = [_mark(key) for key in found if rect.holds(key.rect)]
+        inner = [_mark(key) for key in found if lies_within(key.rect, rect)]
         if not any(cache.view(pyramid, mark)[0] for mark in inner):
             return covered(_by_itself(pyramid, Clip(level, rect), inner, cache), layer.growth, level, rect)
     for block in _blocks([key for key, (known, _) in found.items() if not known]):

@@ -12,7 +12,7 @@ import numpy as np
 from engine.canvas.rising import raised
 from engine.canvas.rising.raised import Front, PaintedTile, Raised, RisenLevel, brought_up
 from engine.canvas.store import Change, Pyramid, changes_between
-from engine.numeric.address import Rect, TileKey
+from engine.numeric.address import Rect, TileKey, lies_within
 from engine.numeric.column import Clip
 from engine.numeric.kernel import kernel
 from engine.numeric.stand_in import or_plain
@@ -46,7 +46,7 @@ class Square(NamedTuple):
     def of(cls, level: int, rect: Rect) -> Square | None:
         """Returns one that holds a rectangle; None where that is too large for it."""
         found = cls(level, (rect.x0 + rect.x1) // 2 // _SQUARE, (rect.y0 + rect.y1) // 2 // _SQUARE, _MARGIN)
-        return found if found.rect.holds(rect) else None
+        return found if lies_within(rect, found.rect) else None
 
 
 CacheKey = TileKey | Square | Clip

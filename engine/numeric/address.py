@@ -68,10 +68,6 @@ class Rect(NamedTuple):
             bottom if bottom < y1 else y1,
         )
 
-    def holds(self, other: Rect) -> bool:
-        """Tells whether all corners of a rectangle lie within this one."""
-        return self.x0 <= other.x0 and self.y0 <= other.y0 and other.x1 <= self.x1 and other.y1 <= self.y1
-
     def meets(self, other: Rect) -> bool:
         """Tells whether both share a pixel."""
         return self.x0 < other.x1 and other.x0 < self.x1 and self.y0 < other.y1 and other.y0 < self.y1
@@ -122,3 +118,8 @@ class Rect(NamedTuple):
         for y in range(self.y0 // TILE, (self.y1 - 1) // TILE + 1):
             for x in range(self.x0 // TILE, (self.x1 - 1) // TILE + 1):
                 yield TileKey(level, x, y)
+
+
+def lies_within(inner: Rect, outer: Rect) -> bool:
+    """Tells whether all corners of a rectangle lie within another."""
+    return outer.x0 <= inner.x0 and outer.y0 <= inner.y0 and inner.x1 <= outer.x1 and inner.y1 <= outer.y1

@@ -140,19 +140,9 @@ class Similarity:
 
     def shown(self, rect: Rect, level: int, at_level: int) -> Rect:
         """Returns the pixels of `at_level` that meet what a rectangle of the source's `level` is shown as."""
-        corners, e = self._corners(rect, level)
+        corners, e = _corners(self, rect, level)
         xs, ys, by = [x for x, _ in corners], [y for _, y in corners], at_level - e
         return Rect(_floor(min(xs), by), _floor(min(ys), by), _ceil(max(xs), by), _ceil(max(ys), by))
-
-    def _corners(self, rect: Rect, level: int) -> tuple[list[tuple[int, int]], int]:
-        """Returns where corners of a rectangle of the source's `level` are shown, as (x, y) and e: (x + iy) 2^-e."""
-        places = [(rect.x0, rect.y0), (rect.x1, rect.y1)]  # of quarter turns, two opposite corners tell
-        if self.quarter is None:
-            places += [(rect.x0, rect.y1), (rect.x1, rect.y0)]
-        c, t, sign = self.c, self.t, -1 if self.mirror else 1
-        e = max(c.e + level, t.e)
-        up, left, top = e - c.e - level, t.x << e - t.e, t.y << e - t.e
-        return [((c.x * x - c.y * sign * y << up) + left, (c.x * sign * y + c.y * x << up) + top) for x, y in places], e
 
     def back(self, twice: tuple[int, int], level: int, to_level: int, bits: int) -> tuple[int, int]:
         """Returns the place of the source that is shown at `twice` / 2 pixels of `level`: in 2^-bits pixels of
@@ -204,6 +194,17 @@ def since(before: Similarity, now: Similarity) -> Similarity:
     mirror = now.mirror != before.mirror
     t = before.t.conjugate if mirror else before.t
     return Similarity(c, now.t + -(c * t), mirror)
+
+
+def _corners(f: Similarity, rect: Rect, level: int) -> tuple[list[tuple[int, int]], int]:
+    """Returns where corners of a rectangle of the source's `level` are shown, as (x, y) and e: (x + iy) 2^-e."""
+    places = [(rect.x0, rect.y0), (rect.x1, rect.y1)]  # of quarter turns, two opposite corners tell
+    if f.quarter is None:
+        places += [(rect.x0, rect.y1), (rect.x1, rect.y0)]
+    c, t, sign = f.c, f.t, -1 if f.mirror else 1
+    e = max(c.e + level, t.e)
+    up, left, top = e - c.e - level, t.x << e - t.e, t.y << e - t.e
+    return [((c.x * x - c.y * sign * y << up) + left, (c.x * sign * y + c.y * x << up) + top) for x, y in places], e
 
 
 def _dropped(number: Dyadic, bits: int) -> Dyadic:

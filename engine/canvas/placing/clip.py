@@ -12,7 +12,7 @@ import numpy as np
 
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.placing.sampling import density, source_level
-from engine.numeric.address import Rect
+from engine.numeric.address import Rect, lies_within
 from engine.numeric.kernel import kernel
 from engine.numeric.similarity import Dyadic, Similarity
 
@@ -47,7 +47,7 @@ class Clip:
         """Tells whether a rectangle lies within it, a pixel from its rim."""
         grown, part = rect.grown(1), self.part.rect
         if self.similarity.quarter is not None:
-            return _inner(self, level).holds(grown)
+            return lies_within(grown, _inner(self, level))
         for x in (grown.x0, grown.x1):
             for y in (grown.y0, grown.y1):
                 u, v = self.similarity.back((2 * x, 2 * y), level, self.part.level, 8)
@@ -86,7 +86,7 @@ def within(clips: Sequence[Clip], level: int, rect: Rect) -> Rect:
 def clipped(pixels: np.ndarray, clips: Sequence[Clip], level: int, rect: Rect) -> np.ndarray:
     """Returns pixels of a rectangle, (4, h, w), as much of each as lies within all clips; `rect` meets them."""
     for clip in clips:
-        if clip.similarity.quarter is not None and _inner(clip, level).holds(rect):
+        if clip.similarity.quarter is not None and lies_within(rect, _inner(clip, level)):
             continue
         if clip.on_pixels(level):
             inner = rect.intersect(clip.bounds(level))

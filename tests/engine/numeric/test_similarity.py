@@ -1,6 +1,7 @@
 """Similarities against plain fractions: places, composition, rectangles, and what is read back."""
 
 from fractions import Fraction
+from math import ceil, floor
 
 import pytest
 from hypothesis import given
@@ -113,3 +114,17 @@ def test_a_cut_one_shows_places_where_it_did_nearly(f, place):
     size = 1 + max(abs(value) for value in parts(place))
     assert max(abs(x - u), abs(y - v)) <= Fraction(2) ** -180 * size
     assert f.quarter is None or cut == f
+
+
+@given(
+    similarities, st.tuples(*[st.integers(-500, 500)] * 2), st.tuples(*[st.integers(1, 300)] * 2), st.integers(-8, 8)
+)
+def test_rectangles_hold_all_corners_that_are_shown_or_that_are_shown_in_them(f, corner, size, level):
+    rect, unit = Rect.at(*corner, *size), Fraction(2) ** -level
+    corners = [(x, y) for x in (rect.x0, rect.x1) for y in (rect.y0, rect.y1)]
+    shown = [plainly(f, x * unit, y * unit) for x, y in corners]
+    low, high = ([least(at[i] / unit for at in shown) for i in (0, 1)] for least in (min, max))
+    assert f.shown(rect, level, level) == (*map(floor, low), *map(ceil, high))
+    back = [f.back((2 * x, 2 * y), level, level, 0) for x, y in corners]
+    low, high = ([least(at[i] for at in back) for i in (0, 1)] for least in (min, max))
+    assert f.box(rect, level, level, 3) == (*(v - 3 for v in low), *(v + 4 for v in high))
