@@ -9,6 +9,7 @@ import imgui_bundle  # before glfw, so that both use one libglfw
 
 import glfw  # isort: skip
 
+from app.canvas.renderers import fills_pixels
 from app.trace import trace_frame
 
 assert imgui_bundle
@@ -18,8 +19,6 @@ PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell
 STILL = 1 / 60  # and at most, where frames go on without an event: the engine wants the processor, too
 CALM = 1 / 20  # where nothing came of the last frame, either
 SOON = 0.1  # seconds after an event during which something may come even so
-# What software renderers call themselves.
-SOFTWARE = "llvmpipe", "softpipe", "swrast", "SwiftShader", "Software R", "Basic Render Driver", "GDI Generic"
 AT_HAND = 0.25  # seconds after an event during which each frame counts
 STEP = 0.003  # seconds that a piece of the engine's work takes, at most, nearly always
 LEAST = 0.001  # seconds of a turn in which such pieces are begun, after frames that take nearly all of the time
@@ -48,7 +47,7 @@ class Pace:
 
     def __init__(self, renderer: str) -> None:
         self.worker: Worker | None = None
-        self._shared = any(name in renderer for name in SOFTWARE)
+        self._shared = fills_pixels(renderer)
         self._last = self._moved = time.monotonic()
         self._busy_until = self._calm_from = 0.0
         self._took = 0.0  # seconds, by the last frame

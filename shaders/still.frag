@@ -1,5 +1,5 @@
 #version 330
-// The picture while the eye moves, and how much of the one at rest has come over it, whose first row is the uppermost.
+// How much of the picture at rest, whose first row is the uppermost, has come over the one while the eye moves.
 in vec2 place;
 uniform sampler2D moving;
 uniform sampler2D still;
@@ -8,7 +8,6 @@ uniform vec2 reach;  // of the still picture that is seen
 out vec4 colour;
 
 void main() {
-    colour = texture(moving, place);
-    if (part > 0.0)
-        colour = mix(colour, texture(still, vec2(place.x, 1.0 - place.y) * reach), part);
+    vec4 rests = textureLod(still, vec2(place.x, 1.0 - place.y) * reach, 0.0);
+    colour = mix(textureLod(moving, place, 0.0), rests, part);
 }

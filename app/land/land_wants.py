@@ -15,6 +15,7 @@ from engine.terrain.seen.eye import Eye, place_kept
 
 ASKED_AT_ONCE = 48  # tiles that are asked for at a time
 RESTS_AFTER = 0.25  # seconds without a move after which the picture at rest is asked for
+_FOLLOWS = 0.1  # seconds after which the canvas follows what is seen of the land: a ray a frame would be dear
 _WIDE = 1.0  # of the window's width, of the land that is seen in the middle at first
 
 
@@ -25,6 +26,7 @@ class LandWants:
         self._asked: tuple[object, ...] = ()
         self._still: tuple[object, ...] = ()
         self._serial: int | None = None
+        self._followed, self._behind = -_FOLLOWS, False
         self.hears: dict[type, Hear] = {
             LandMade: _made,
             GroundFound: self._ground,
@@ -53,8 +55,10 @@ class LandWants:
             return
         if state.changed:
             self._tiles(desk)
-            if not desk.painting:
-                follow_canvas(desk)
+            self._behind = True
+        if self._behind and not desk.painting and now - self._followed >= _FOLLOWS:
+            self._followed, self._behind = now, False
+            follow_canvas(desk)
         self._rest(desk, now)
 
     def _place(self, desk: Desk) -> None:

@@ -17,7 +17,7 @@ class StillFade:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx = ctx
-        self._sources = shader_source("still.vert"), shader_source("still.frag")
+        self._sources = tuple(shader_source(name) for name in ("still.vert", "still.frag", "moving.frag"))
         self._program: moderngl.Program | None = None
         self._still: moderngl.Texture | None = None
         self._shown: StillCome | None = None
@@ -55,14 +55,23 @@ class StillFade:
         self._reach = size[0] / (still.by * wide), size[1] / (still.by * high)
 
     def draw(self, moving: moderngl.Texture) -> None:
-        """Draws both into the present viewport."""
+        """Draws what is seen of both into the present viewport."""
         if self._program is None:
-            self._program = self._ctx.program(*self._sources)
-            corners = self._ctx.buffer(np.array([-1, -1, 1, -1, -1, 1, 1, 1], np.float32).tobytes())
-            self._whole = self._ctx.vertex_array(self._program, [(corners, "2f", "at")])
-            self._program["moving"], self._program["still"] = 0, 1
+            self._begin()
+        assert self._program is not None
         moving.use(0)
-        (self._still or moving).use(1)
-        self._program["part"] = self._part if self._shown is not None else 0.0
-        self._program["reach"] = self._reach
-        self._whole.render(moderngl.TRIANGLE_STRIP)
+        if self._still is None or self._shown is None or self._part == 0.0:
+            self._alone.render(moderngl.TRIANGLE_STRIP)
+            return
+        self._still.use(1)
+        self._program["part"], self._program["reach"] = self._part, self._reach
+        self._both.render(moderngl.TRIANGLE_STRIP)
+
+    def _begin(self) -> None:
+        corners = self._ctx.buffer(np.array([-1, -1, 1, -1, -1, 1, 1, 1], np.float32).tobytes())
+        whole, both, alone = self._sources
+        self._program, one = self._ctx.program(whole, both), self._ctx.program(whole, alone)
+        self._both, self._alone = (
+            self._ctx.vertex_array(program, [(corners, "2f", "at")]) for program in (self._program, one)
+        )
+        self._program["moving"], self._program["still"], one["moving"] = 0, 1, 0

@@ -42,7 +42,7 @@ class LandState:
     `kept`: tiles, the longest unused first; `drawn`: those of the last picture, nearest first; `room`: left, top, width
     and height of the picture in the window; `changed`: it is to be drawn again; `moved`: when the eye last did;
     `still`: the picture at rest, `number`: of the one that is wanted; `triangles`, `took`: of the last picture;
-    `stands`: where the eye is to be as soon as the ground below it is known."""
+    `taken`: when a tile last came; `stands`: where the eye is to be as soon as the ground below it is known."""
 
     on: bool = False
     eye: Eye | None = None
@@ -63,6 +63,7 @@ class LandState:
     left: float = 0.0  # of the way to the goal, powers of two
     held: int = 0  # bytes of tiles
     clear: float = 1.0
+    taken: float = 0.0
     stands: Outlook | None = None
 
     @property
@@ -179,7 +180,7 @@ class LandState:
         before = self.kept.pop(tile.key, None)
         self.held += tile.held - (before.tile.held if before is not None else 0)
         self.kept[tile.key] = KeptTile(tile, revision, now if before is None else before.came)
-        self.changed = True
+        self.changed, self.taken = True, now
 
     def use(self, wanted: set[TileKey]) -> list[TileKey]:
         """Notes which tiles are wanted now; returns those that are let go."""

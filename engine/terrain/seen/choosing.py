@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.numeric.address import Rect
-from engine.terrain.seen.eye import Eye
+from engine.terrain.seen.eye import Eye, from_whole
 from engine.terrain.seen.land_tiles import FINER, QUADS, UNIT, LandTile, Placed, TileKey
 
 MORPHS = 0.85  # of the way to where a tile ends, at which it begins to become its parent
@@ -110,10 +110,14 @@ def _roots(sight: LandSight) -> list[_Node]:
     columns, rows = (
         range(math.floor((at - span) / side), math.floor((at + span) / side) + 1) for at in (sight.eye.x, sight.eye.y)
     )
+    across, down = (
+        [-math.ldexp(from_whole(at, begin, n * QUADS), -begin) for n in numbers]
+        for at, numbers in ((sight.eye.x, columns), (sight.eye.y, rows))
+    )
     return [
-        _node(TileKey(begin, x, y), *sight.eye.offset(x * side, y * side), float(side), sight.clear)
-        for y in rows
-        for x in columns
+        _node(TileKey(begin, i, j), x, y, float(side), sight.clear)
+        for j, y in zip(rows, down, strict=True)
+        for i, x in zip(columns, across, strict=True)
     ]
 
 

@@ -73,6 +73,12 @@ def as_fraction(number: float) -> Fraction:
     return Fraction(float(number))
 
 
+def from_whole(place: Fraction, up: int, less: int) -> float:
+    """Returns place * 2^up - less, rounded once: a frame asks this of every tile, and fractions would be slow."""
+    top, bottom = (place.numerator << up, place.denominator) if up >= 0 else (place.numerator, place.denominator << -up)
+    return (top - less * bottom) / bottom
+
+
 def place_kept(place: Fraction) -> Fraction:
     """Returns a place with as many binary places as are kept."""
     return Fraction(round(place * (1 << _KEPT)), 1 << _KEPT)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from engine.terrain.seen.eye import Eye, as_fraction
+from engine.terrain.seen.eye import Eye, as_fraction, from_whole
 from engine.terrain.seen.land_tiles import FINER, QUADS, TEXELS, UNIT, LandTile
 
 _NONE = math.inf
@@ -27,10 +27,10 @@ class Hit(NamedTuple):
 def met(tiles: Iterable[LandTile], eye: Eye, way: np.ndarray) -> Hit | None:
     """Returns where a ray from the eye along `way`, of length 1, first meets one of the tiles: bilinear patches between
     the corners of their texels."""
-    nearest = _NONE
+    nearest, high = _NONE, as_fraction(eye.z)
     for tile in tiles:
         side = math.ldexp(1.0, -tile.key.level - FINER)
-        o = _from(tile, eye, side)
+        o = _from(tile, eye, high)
         begins, ends = _over(o, way)
         if ends > begins and begins * side < nearest:
             nearest = min(nearest, _first(tile.surface, o, way, begins, ends) * side)
@@ -40,12 +40,11 @@ def met(tiles: Iterable[LandTile], eye: Eye, way: np.ndarray) -> Hit | None:
     return Hit(eye.x + as_fraction(dx), eye.y + as_fraction(dy), eye.z + dz, nearest)
 
 
-def _from(tile: LandTile, eye: Eye, side: float) -> tuple[float, float, float]:
-    """Returns where the eye is, from a tile's first corner and base, in pixels of its texels."""
-    texel = Fraction(side)
-    x, y = (v / texel - n * TEXELS for v, n in ((eye.x, tile.key.x), (eye.y, tile.key.y)))
-    z = Fraction(eye.z) / texel - Fraction(tile.base << FINER, 1 << UNIT)
-    return float(x), float(y), float(z)
+def _from(tile: LandTile, eye: Eye, high: Fraction) -> tuple[float, float, float]:
+    """Returns where the eye, which is so high, is from a tile's first corner and base, in pixels of its texels."""
+    (level, x, y), fine = tile.key, tile.key.level + FINER
+    up = math.ldexp(from_whole(high, level + UNIT, tile.base), FINER - UNIT)
+    return from_whole(eye.x, fine, x * TEXELS), from_whole(eye.y, fine, y * TEXELS), up
 
 
 def _over(o: tuple[float, float, float], way: np.ndarray) -> tuple[float, float]:
@@ -101,18 +100,28 @@ def _roots(a: np.ndarray, b: np.ndarray, c: np.ndarray, span: np.ndarray) -> np.
 def ground_under(tiles: Iterable[LandTile], x: Fraction, y: Fraction) -> float | None:
     """Returns how high the finest of the tiles at a place is there, in pixels of level 0; None if none covers it."""
     best: LandTile | None = None
+    over: dict[int, tuple[int, int]] = {}  # by level, the tile at the place
     for tile in tiles:
-        side = Fraction(QUADS) / Fraction(2) ** tile.key.level
-        inside = tile.key.x * side <= x < (tile.key.x + 1) * side and tile.key.y * side <= y < (tile.key.y + 1) * side
-        if inside and (best is None or tile.key.level > best.key.level):
+        level = tile.key.level
+        if best is not None and level <= best.key.level:
+            continue
+        if level not in over:
+            over[level] = _floor(x, level) // QUADS, _floor(y, level) // QUADS
+        if (tile.key.x, tile.key.y) == over[level]:
             best = tile
     return None if best is None else height_in(best, x, y)
 
 
+def _floor(place: Fraction, level: int) -> int:
+    """Returns the pixel of a level at a place."""
+    above, below = place.numerator << max(level, 0), place.denominator << max(-level, 0)
+    return above // below
+
+
 def height_in(tile: LandTile, x: Fraction, y: Fraction) -> float:
     """Returns how high a tile is at a place within it, in pixels of level 0."""
-    texel = Fraction(1) / Fraction(2) ** (tile.key.level + FINER)
-    u, v = float(x / texel - tile.key.x * TEXELS), float(y / texel - tile.key.y * TEXELS)
+    fine = tile.key.level + FINER
+    u, v = from_whole(x, fine, tile.key.x * TEXELS), from_whole(y, fine, tile.key.y * TEXELS)
     i, j = (min(max(int(w), 0), TEXELS - 1) for w in (u, v))
     u, v = u - i, v - j
     (a, b), (c, d) = tile.surface[j : j + 2, i : i + 2].astype(np.float64).tolist()

@@ -16,7 +16,7 @@ from engine.session.apply import Around, apply
 from engine.terrain.drape import Cover
 from engine.terrain.plane import land
 from engine.terrain.seen.choosing import LandSight, anchor, choose_tiles
-from engine.terrain.seen.eye import Eye
+from engine.terrain.seen.eye import Eye, from_whole
 from engine.terrain.seen.land_tiles import FINER, QUADS, TEXELS, UNIT, TileKey, morphed
 from engine.terrain.seen.meeting import ground_under, height_in, met
 from engine.terrain.seen.tile_making import TileMaker
@@ -184,3 +184,9 @@ def test_shade_lies_behind_what_stands_in_the_sun(made):
     behind = round(10 - 4 * x), round(10 - 4 * y)
     assert seen[behind[1], behind[0]] < 0.05
     assert seen[round(10 + 5 * y), round(10 + 5 * x)] > 0.95
+
+
+@given(st.integers(-(2**110), 2**110), st.integers(-12, 40), st.integers(-(2**60), 2**60))
+def test_where_a_place_lies_from_a_whole_number_is_rounded_once(place, up, less):
+    told = Fraction(place, 1 << 96)
+    assert from_whole(told, up, less) == float(told * Fraction(2) ** up - less)
