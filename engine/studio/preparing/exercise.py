@@ -139,6 +139,7 @@ _PLAIN = {
     "files": filed,
     "structure": with_structure.make_once,
     "learnt": learning.make_once,
+    "seen": learning.look_once,
     "written": draw_written,
 }  # jobs without a brush
 

@@ -39,9 +39,9 @@ def job_of(swatch: Swatch) -> Job:
 
 
 _PLAIN = job_of(Swatch("", Brush(), (104, 44)))
-COMMIT, STRUCTURE, LEARNT_DETAIL, WRITTEN_TEXTURES, FILES = (
-    Job(json.dumps({"kind": kind})) for kind in ("commit", "structure", "learnt", "written", "files")
-)
+COMMIT, STRUCTURE, LEARNT_DETAIL, SEEN_DETAIL, WRITTEN_TEXTURES, FILES = (
+    Job(json.dumps({"kind": kind})) for kind in ("commit", "structure", "learnt", "seen", "written", "files")
+)  # detail that is seen is what a painting with learnt detail needs first: a part of what learning needs
 PLAIN_PAINT = (_PLAIN, COMMIT)  # what the first strokes of plain paint need
 _BEFORE_EXAMPLES = 3  # one in so many brushes comes before the first that grows an example
 

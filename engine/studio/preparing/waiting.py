@@ -15,7 +15,7 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole
 from engine.studio.journalled.tend_request import Tend
-from engine.studio.preparing.job_queue import Job, job_of
+from engine.studio.preparing.job_queue import SEEN_DETAIL, Job, job_of
 from engine.studio.preparing.processes import Preparing
 from engine.studio.preparing.waiting_line import THUMBNAIL, WaitingLine
 from engine.studio.preparing.waiting_swatches import WaitingSwatches
@@ -34,6 +34,8 @@ class Waiting:
         self._swatches = WaitingSwatches(studio, preparing, send)
         self._examples: Job | None = None  # what GetReady waits for
         self._unseen: float | None = None  # since when pictures wait
+        self._textures: object = None  # of the painting, as they were last looked through
+        self._detail = False  # whether learnt detail may be seen, whose kernels are asked for
         self._looked = 0.0  # when what has been compiled was last looked at
 
     # --- requests ----------------------------------------------------------------------------------------------------
@@ -58,6 +60,11 @@ class Waiting:
     def look(self, request: q.Look) -> None:
         """Takes over what is wanted on the screen."""
         self._studio.look(request)
+        textures = self._studio.easel.session.painting.textures
+        if textures is not self._textures:
+            self._textures = textures
+            self._detail = self._preparing.busy and any(texture.maps is not None for texture in textures.values())
+            self._preparing.want((SEEN_DETAIL,) if self._detail else (), soon=True)
 
     def play(self) -> None:
         """Plays the next piece of a recording, unless commands wait."""
@@ -114,19 +121,24 @@ class Waiting:
     @property
     def _seen(self) -> int:
         """Pieces of the studio's own work: none while pictures wait, and not for too long."""
-        waits = self._unseen is not None and self._line.stalled
-        return 0 if waits and time.monotonic() - (self._unseen or 0.0) < PATIENCE else self._studio.pending
+        return 0 if self._unseen is not None and self._line.stalled and not self._late else self._studio.pending
+
+    @property
+    def _late(self) -> bool:
+        """Tells whether pictures waited long enough: where a process is asked for their kernels, until it is done."""
+        if self._detail:
+            self._detail = not self._preparing.ready(SEEN_DETAIL)
+        return self._unseen is not None and not self._detail and time.monotonic() - self._unseen >= PATIENCE
 
     def _stepped(self) -> bool:
-        easel, now = self._studio.easel, time.monotonic()
+        easel = self._studio.easel
         looks = easel.viewer.pending and not (easel.behind or self._studio.lab.pending)
-        late = self._unseen is not None and now - self._unseen >= PATIENCE
         try:
-            with refusing(bool(looks) and not late and self._preparing.busy):
+            with refusing(bool(looks) and not self._late and self._preparing.busy):
                 done = self._studio.step()
         except NotCompiled:
             if not self._line.restart():  # else the sketch, which lacks nothing, can be seen at once
-                self._unseen = self._unseen or now
+                self._unseen = self._unseen or time.monotonic()
             easel.viewer.changed(lambda level: [])  # nothing has, but all is to be looked at again
             return True
         self._unseen = None if looks else self._unseen

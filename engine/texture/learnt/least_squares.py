@@ -28,7 +28,7 @@ from engine.numeric.solving import solved
 from engine.numeric.symmetric import eigenvectors, product
 from engine.texture.continuation import slope_of
 from engine.texture.learnt.kinds import LOOKED_ROUND, kinds_of, liveliness
-from engine.texture.learnt.maps import LANES, NEIGHBOURHOODS, NOISY, STEEPS, TAPPED, TAPS, Maps, rounded
+from engine.texture.learnt.maps import NEIGHBOURHOODS, NOISY, TAPPED, TAPS, Maps, nothing_learnt, rounded
 from engine.texture.learnt.refining import along_axes, refined
 
 LOOKED_AT = 512  # pixels of a picture each way that are learnt from
@@ -96,13 +96,7 @@ def _even(planes: np.ndarray) -> np.ndarray:
 def _learnt(parts: Sequence[np.ndarray], axes: np.ndarray) -> Maps:
     """Returns maps from parts of planes (R, h, w) along the axes."""
     count = len(axes)
-    maps = Maps(
-        axes,
-        np.zeros(STEEPS - 1, np.float32),
-        np.zeros(2, np.float32),
-        np.zeros((NEIGHBOURHOODS, count, TAPS, LANES), np.float32),
-        np.zeros((NEIGHBOURHOODS, count, 3 * NOISY, LANES), np.float32),
-    )
+    maps = nothing_learnt(axes)
     maps.sharp[..., :3] = rounded(_plain())
     parts = [_even(fine) for fine in parts]
     coarse = [reduce(fine) for fine in parts]

@@ -53,6 +53,13 @@ class Maps:
         return count
 
 
+def nothing_learnt(axes: np.ndarray) -> Maps:
+    """Returns maps along axes by which four finer pixels are the one that they lie in."""
+    lanes = (NEIGHBOURHOODS, len(axes))
+    sharp, rough = np.zeros((*lanes, TAPS, LANES), np.float32), np.zeros((*lanes, 3 * NOISY, LANES), np.float32)
+    return Maps(axes, np.zeros(STEEPS - 1, np.float32), np.zeros(2, np.float32), sharp, rough)
+
+
 def rounded(values: np.ndarray) -> np.ndarray:
     """Returns the nearest multiples of 2^-12 that are kept: float32."""
     out: np.ndarray = (np.clip(np.rint(values / float(MAP_STEP)), -_MOST, _MOST) * float(MAP_STEP)).astype(np.float32)

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from immutables import Map
 
+from engine import kernel_cache
 from engine.brush.parts import Component
 from engine.brush.settings import Brush
 from engine.kernel_cache import NotCompiled
@@ -20,9 +21,12 @@ from engine.painting.textures import Texture
 from engine.painting.value import Painting
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.preparing import waiting as waits
+from engine.studio.preparing.job_queue import SEEN_DETAIL
 from engine.studio.preparing.sketch import Sketch
 from engine.studio.preparing.waiting import Waiting
 from engine.studio.studio import Studio
+from engine.texture.image import ImageSource
 
 PLAIN, ROCK = Brush(), Brush(radius=3.0, hardness=0.5)
 
@@ -93,6 +97,9 @@ class Easel:
     def _need(self, name):
         if self.kernels.busy and name not in self.kernels.there:
             raise NotCompiled(name)
+
+    def look(self, request):
+        self.viewer.pending = self.pending = len(request.tiles)
 
     def step(self):
         return False
@@ -303,3 +310,27 @@ def test_a_sketch_of_plain_strokes_is_what_they_will_be():
     assert sketch.rects(level)
     sketch.begin(requests[3:])
     assert np.array_equal(sketch.over(level, Rect.at(0, -20, 9, 9), done[:, :9, :9]), done[:, :9, :9])
+
+
+def test_a_process_is_asked_for_the_kernels_of_learnt_detail_and_waited_for(monkeypatch):
+    """A picture waits for it, for as long as it takes; without learnt detail no longer than PATIENCE."""
+    monkeypatch.setattr(waits, "PATIENCE", 0.0)
+    learnt = Texture("image", Map(), maps=ImageSource("", ""))
+    for texture, asked in ((learnt, [(SEEN_DETAIL, True)]), (Texture("image", Map()), [])):
+        kernels, easel, waiting, _ = made()
+        easel.session, looked = SimpleNamespace(painting=Painting(textures=Map(a=texture))), []
+
+        def step(looked=looked):
+            if kernel_cache._local.watch is not None:
+                raise NotCompiled("seen")
+            return looked.append("compiled here") is None
+
+        easel.step = step
+        for _ in range(3):
+            waiting.look(q.Look(((0, 0, 0, -1),)))
+            waiting.step()
+        assert kernels.jobs == asked
+        assert bool(looked) != bool(asked)
+        kernels.done.add(SEEN_DETAIL)
+        waiting.step()
+        assert looked
