@@ -7,22 +7,34 @@ import math
 import numpy as np
 
 from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
+from engine.brush.print_form import TwoInts
 from engine.numeric.address import TILE
 from engine.numeric.kernel import Array, inner, inner_uncounted, kernel
 
 _ZERO, _ONE, _TWO, _THREE = np.float32(0.0), np.float32(1.0), np.float32(2.0), np.float32(3.0)
 _HALF = np.float32(0.5)
+TwoReals = tuple[float, float]
 _FAINT = np.float32(1e-36)  # below any strength of a dab
+_LANES = 16  # pixels of a row that are worked on together
 
 
 @inner_uncounted
-def _locate_row(share: Array, first: int, last: int, dy: float, cx: float, place: Array, row: Array) -> None:
-    """Writes where textures lie, float32 (2, 128), where at least half of what is there is the dab's."""
-    for x in range(first, last):
-        if share[x] >= _HALF:
-            dx = x + 0.5 - cx
-            row[0, x] = np.float32(place[0] * dx + place[1] * dy + place[4])
-            row[1, x] = np.float32(place[2] * dx + place[3] * dy + place[5])
+def _locate_row(shares: Array, span: TwoInts, middle: TwoReals, place: Array, places: Array, y: int) -> None:
+    """Writes where textures lie, in a span of row y, where at least half of what is there is the dab's; `middle`: its
+    own, across, and how far above the row."""
+    share, across, down = (
+        shares[span[0] : span[1]],
+        places[0, y, span[0] : span[1]],
+        places[1, y, span[0] : span[1]],
+    )
+    dy = middle[1]
+    xx, xy, x = place[0], place[1] * dy, place[4]
+    yx, yy, y_ = place[2], place[3] * dy, place[5]
+    for i in range(share.shape[0]):
+        dx = (span[0] + i) + 0.5 - middle[0]
+        most = share[i] >= _HALF
+        across[i] = np.float32(xx * dx + xy + x) if most else across[i]
+        down[i] = np.float32(yx * dx + yy + y_) if most else down[i]
 
 
 @inner
@@ -42,7 +54,7 @@ def blend(planes: tuple[Array, Array, Array, Array], disc: Array, left: int, top
             for x in range(first, last):
                 t[x] += (value - t[x]) * k[x]
         if places.shape[0]:
-            _locate_row(k, first, last, y + 0.5 - cy, cx, disc[own - 6 : own], places[:, y])
+            _locate_row(k, (first, last), (cx, y + 0.5 - cy), disc[own - 6 : own], places, y)
         for x in range(first, last):
             k[x] = _ZERO
 
@@ -54,11 +66,15 @@ def blend_one(planes: tuple[Array, Array, Array, Array], disc: Array, left: int,
 
 
 @inner_uncounted
-def _lay_row(m: Array, across: Array, share: Array, down: np.float32, most: np.float32, rate: np.float32) -> None:
-    """Lays a row of a disc into the coverage, as `discs.lay` does; writes how much of the dab is in the mean."""
+def _lay_row(
+    m: Array, across: Array, share: Array, inside: TwoInts, down: np.float32, most: np.float32, rate: np.float32
+) -> None:
+    """Lays a row of a disc into the coverage, as `discs.lay` does; writes how much of the dab is in the mean.  Nothing
+    is laid but `inside`."""
     for i in range(m.shape[0]):
         v = _ONE - max(_ZERO, min(_ONE, across[i] + down))
         part = rate * (v * v * (_THREE - _TWO * v))
+        part = part if (i >= inside[0]) & (i < inside[1]) else _ZERO
         m[i] += max(_ZERO, most - m[i]) * part
         share[i] = min(most * part / max(max(m[i], most * part), _FAINT), _ONE)
 
@@ -77,7 +93,7 @@ def _lay_one(
     across, share = scratch
     cx, cy, outer, scale = disc[CX] - left, disc[CY] - top, disc[ROUT], disc[SCALE]
     ceiling, rate, own = np.float32(disc[CEILING]), np.float32(disc[RATE]), disc.shape[0] - tints.shape[0]
-    for x in range(max(0, math.floor(cx - outer)), min(TILE, math.ceil(cx + outer) + 1)):
+    for x in range(max(0, math.floor(cx - outer)) // _LANES * _LANES, min(TILE, math.ceil(cx + outer) + _LANES)):
         across[x] = np.float32((x + 0.5 - cx) * (x + 0.5 - cx) * scale)
     for y in range(max(0, math.ceil(cy - outer - 0.5)), min(TILE, math.floor(cy + outer - 0.5) + 1)):
         square = (y + 0.5 - cy) * (y + 0.5 - cy)
@@ -85,17 +101,18 @@ def _lay_one(
         first, last = max(0, math.ceil(cx - half - 0.5)), min(TILE, math.floor(cx + half - 0.5) + 1)
         if first >= last:
             continue
+        a, b = first // _LANES * _LANES, (last + _LANES - 1) // _LANES * _LANES
         down = np.float32((square - disc[RIN2]) * scale)
-        _lay_row(coverage[y, first:last], across[first:last], share[first:last], down, ceiling, rate)
+        _lay_row(coverage[y, a:b], across[a:b], share[a:b], (first - a, last - a), down, ceiling, rate)
         for c in range(tints.shape[0]):
-            _blend_row(tints[c, y, first:last], share[first:last], np.float32(disc[own + c]))
+            _blend_row(tints[c, y, a:b], share[a:b], np.float32(disc[own + c]))
         if places.shape[0]:
-            _locate_row(share, first, last, y + 0.5 - cy, cx, disc[own - 6 : own], places[:, y])
+            _locate_row(share, (first, last), (cx, y + 0.5 - cy), disc[own - 6 : own], places, y)
 
 
 @kernel
 def lay_round(planes: tuple[Array, Array, Array, Array], discs: Array, which: Array, corner: tuple[int, int]) -> None:
     """Lays round discs, as `discs.lay` does, and their tints, one after the other."""
-    scratch = np.empty(TILE, np.float32), np.empty(TILE, np.float32)
+    scratch = np.zeros(TILE, np.float32), np.zeros(TILE, np.float32)
     for index in which:
         _lay_one(planes, discs[index], corner[0], corner[1], scratch)

@@ -17,6 +17,7 @@ from engine.numeric.stand_in import or_interpreted
 
 CX, CY, ROUT, RIN2, SCALE, CEILING, RATE = range(7)  # a disc's columns; SCALE = 1/(Rout^2 - Rin^2)
 DISC = 7
+_DAB = 6  # columns of a dab that its disc is made of
 
 _LANES = 16  # rows are worked on in whole groups of as many pixels, so that no scalar remainder is left
 _FEW = 64  # pairs that are sorted by insertion
@@ -38,12 +39,13 @@ def no_bounds() -> np.ndarray:
 @or_interpreted()
 @kernel
 def as_discs(dabs: np.ndarray, shift_x: Real, shift_y: Real, bounds: np.ndarray) -> np.ndarray:
-    """Dabs (n, 6) as discs (n, 7), moved by a shift in px; those without effect get RATE 0.
+    """Dabs (n, 6 + k) as discs (n, 7 + k), moved by a shift in px; those without effect get RATE 0.
 
     CEILING is the dab's opacity on the grid 2^-16.  `bounds`, float64 (x0, y0, x1, y1, highest CEILING), grows to hold
     the discs.
     """
-    discs = np.empty((dabs.shape[0], DISC))
+    more = DISC - _DAB
+    discs = np.empty((dabs.shape[0], dabs.shape[1] + more))
     for i in range(dabs.shape[0]):
         radius = dabs[i, 2]
         fade = min(1.0, 4.0 * radius * radius)
@@ -64,13 +66,9 @@ def as_discs(dabs: np.ndarray, shift_x: Real, shift_y: Real, bounds: np.ndarray)
             bounds[1] = min(bounds[1], disc[CY] - outer)
             bounds[2] = max(bounds[2], disc[CX] + outer)
             bounds[3] = max(bounds[3], disc[CY] + outer)
+        for k in range(_DAB, dabs.shape[1]):  # what else dabs have
+            disc[k + more] = dabs[i, k]
     return discs
-
-
-def turned_discs(dabs: np.ndarray, shift_x: float, shift_y: float, bounds: np.ndarray) -> np.ndarray:
-    """As `as_discs`, followed by what dabs, float64 (n, 6 + k), have beside their first columns."""
-    discs: np.ndarray = as_discs(dabs, shift_x, shift_y, bounds)
-    return np.concatenate([discs, dabs[:, 6:]], axis=1) if dabs.shape[1] > 6 else discs
 
 
 @inlined

@@ -110,11 +110,16 @@ def is_turned(brush: Brush) -> bool:
 
 def tints_of(brush: Brush) -> int:
     """Returns how many tints each dab has: three of its colour, and one of each component of the ink; 0 where none of
-    these follow anything, lie on the canvas, and the brush is not wet."""
+    these follow anything, and the brush is not wet."""
     names = {*COLOUR_TARGETS, *(f"ink_{n + 1}" for n in range(len(brush.ink)))}
-    own = brush.wet is not None or bool(names & set(brush.dynamics)) or (is_placed(brush) and bool(brush.ink))
-    own = own and brush.row.lays_ink
+    own = brush.row.lays_ink and (brush.wet is not None or bool(names & set(brush.dynamics)))
     return 3 + len(brush.ink) if own else 0
+
+
+def is_dyed(brush: Brush) -> bool:
+    """Tells whether the ink is laid under tints: those of the dabs, or the brush's own where its textures do not lie on
+    the canvas."""
+    return tints_of(brush) > 0 or (is_placed(brush) and brush.row.lays_ink and bool(brush.ink))
 
 
 def is_placed(brush: Brush) -> bool:

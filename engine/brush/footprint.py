@@ -93,7 +93,7 @@ class Footprint:
         dabs[:, 0] = (dabs[:, 0] + self._shift[0]) * self._scale
         dabs[:, 1] = (dabs[:, 1] + self._shift[1]) * self._scale
         dabs[:, 2] *= self._scale
-        discs = kernels.turned_discs(dabs, 0.0, 0.0, kernels.no_bounds())
+        discs = kernels.as_discs(dabs, 0.0, 0.0, kernels.no_bounds())
         if self._tip is None:
             discs = discs[discs[:, CEILING] >= _HALF]  # a pen that hardly touches lays very many dabs that take nothing
         return discs, _boxes(discs)

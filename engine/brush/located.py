@@ -19,80 +19,99 @@ from engine.brush.tip import ways_of
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.kernel import Array, Int, kernel
 
-_SIDE = 64  # px of a texture that are worked out at once
-_HALF = np.float32(0.5)
+_LONG, _HIGH = 8, 6  # bits of the px of a piece of a texture: strokes are long
+_PIECE = (1 << _LONG) + 1, (1 << _HIGH) + 1  # of which the last are the next one's first
+_ZERO, _HALF = np.float32(0.0), np.float32(0.5)
 
-_FEW = 64  # squares for which there is room at first
-_MEMO = 256  # squares kept: 4 MB for each channel
+_FEW = 64  # pieces for which there is room at first
+_MEMO = 64  # pieces kept: 4 MB for each channel
 
 
 class Patches:
-    """A texture over rectangles, float32 (n, h, w), that are kept."""
+    """A texture in pieces, which `fetch` makes, float32 (n, h, w), and which are kept."""
 
     def __init__(self, fetch: Callable[[Rect], np.ndarray]) -> None:
         self._fetch = fetch
-        self._memo: dict[Rect, np.ndarray] = {}
+        self._slots: dict[tuple[int, int], int] = {}
+        self._made: np.ndarray | None = None
 
-    def __call__(self, rect: Rect) -> np.ndarray:
-        """Returns it over one, not to be written to."""
-        known = self._memo.get(rect)
-        if known is None:
-            while len(self._memo) >= _MEMO:
-                self._memo.pop(next(iter(self._memo)), None)
-            known = self._memo[rect] = self._fetch(rect)
-        return known
+    def held(self, codes: np.ndarray) -> np.ndarray:
+        """Returns pieces, float32 (m, n, h, w), not to be written to, and writes behind corners, (k, 3), which are
+        theirs."""
+        corners: list[tuple[int, int]] = [(x, y) for x, y, _ in codes.tolist()]
+        if len(self._slots.keys() | set(corners)) > (_MEMO if self._made is None else len(self._made)):
+            self._slots.clear()
+            self._made = None
+        made = self._made
+        for i, corner in enumerate(corners):
+            if corner not in self._slots:
+                piece = self._fetch(Rect.at(*corner, *_PIECE))
+                if made is None:
+                    made = self._made = np.empty((max(_MEMO, len(corners)), *piece.shape), np.float32)
+                made[len(self._slots)] = piece
+                self._slots[corner] = len(self._slots)
+            codes[i, 2] = self._slots[corner]
+        assert made is not None
+        return made
 
 
-def located(places: np.ndarray, fetch: Patches) -> np.ndarray:
-    """Returns a texture as it is seen at places, float32 (2, h, w), with straight lines between its pixels: float32
-    (n, h, w)."""
-    codes, which = np.empty((_FEW, 2), np.int64), np.empty(places.shape[1:], np.int64)
-    count = _squares(places, codes, which)
+def located(places: np.ndarray, covered: np.ndarray, fetch: Patches) -> np.ndarray:
+    """Returns a texture as it is seen at places, float32 (2, h, w), with straight lines between its pixels, where
+    anything is `covered`, float32 (h, w); 0 elsewhere: float32 (n, h, w)."""
+    codes, which = np.empty((_FEW, 3), np.int64), np.empty(covered.shape, np.int64)
+    count = _pieces(places, covered, codes, which)
+    if not count:
+        return np.zeros((1, *covered.shape), np.float32)
     if count > len(codes):
-        codes = np.empty((count, 2), np.int64)
-        _squares(places, codes, which)
-    seen = np.stack([fetch(Rect.at(x, y, _SIDE + 1, _SIDE + 1)) for x, y in codes[:count].tolist()])
-    out = np.empty((seen.shape[1], *which.shape), np.float32)
-    _sample(places, codes, which, seen, out)
+        codes = np.empty((count, 3), np.int64)
+        _pieces(places, covered, codes, which)
+    made = fetch.held(codes[:count])
+    out = np.empty((made.shape[1], *covered.shape), np.float32)
+    _sample(places, covered, codes, which, made, out)
     return out
 
 
 @kernel
-def _squares(places: Array, codes: Array, which: Array) -> Int:
-    """Writes the corners of the squares in which places lie, (k, 2), and in which of these each does, as far as there
-    is room; returns how many there are."""
-    count, last = 0, 0
+def _pieces(places: Array, covered: Array, codes: Array, which: Array) -> Int:
+    """Writes the corners of the pieces in which places lie, (k, 3), and in which of these each does, as far as there is
+    room; returns how many there are."""
+    count, last, left, top = 0, 0, 1, 1  # no corner
     for i in range(which.shape[0]):
         for j in range(which.shape[1]):
-            x = math.floor(places[0, i, j] - _HALF) // _SIDE * _SIDE
-            y = math.floor(places[1, i, j] - _HALF) // _SIDE * _SIDE
-            if last < count and codes[last, 0] == x and codes[last, 1] == y:
-                which[i, j] = last
+            if covered[i, j] == _ZERO:
                 continue
-            last = 0
-            while last < min(count, codes.shape[0]) and not (codes[last, 0] == x and codes[last, 1] == y):
-                last += 1
-            if last >= codes.shape[0]:
-                count, last = count + 1, 0
-                continue
-            if last == count:
-                codes[count, 0], codes[count, 1] = x, y
-                count += 1
+            x = (math.floor(places[0, i, j] - _HALF) >> _LONG) << _LONG
+            y = (math.floor(places[1, i, j] - _HALF) >> _HIGH) << _HIGH
+            if x != left or y != top:
+                last = 0
+                while last < min(count, codes.shape[0]) and not (codes[last, 0] == x and codes[last, 1] == y):
+                    last += 1
+                if last >= codes.shape[0]:
+                    count, left = count + 1, 1
+                    continue
+                if last == count:
+                    codes[count, 0], codes[count, 1] = x, y
+                    count += 1
+                left, top = x, y
             which[i, j] = last
     return count
 
 
 @kernel
-def _sample(places: Array, codes: Array, which: Array, seen: Array, out: Array) -> None:
+def _sample(places: Array, covered: Array, codes: Array, which: Array, made: Array, out: Array) -> None:
     for i in range(which.shape[0]):
         for j in range(which.shape[1]):
+            if covered[i, j] == _ZERO:
+                for c in range(out.shape[0]):
+                    out[c, i, j] = _ZERO
+                continue
             k = which[i, j]
             u, v = places[0, i, j] - _HALF, places[1, i, j] - _HALF
             across, down = math.floor(u), math.floor(v)
             a, b = np.float32(u - across), np.float32(v - down)
             x, y = across - codes[k, 0], down - codes[k, 1]
             for c in range(out.shape[0]):
-                plane = seen[k, c]
+                plane = made[codes[k, 2], c]
                 upper = plane[y, x] + (plane[y, x + 1] - plane[y, x]) * a
                 lower = plane[y + 1, x] + (plane[y + 1, x + 1] - plane[y + 1, x]) * a
                 out[c, i, j] = upper + (lower - upper) * b

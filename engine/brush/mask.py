@@ -126,7 +126,7 @@ class StrokeMask:
 
         BrushError if the stroke would meet more than `tiles_cap` tiles; dabs before that may have been laid.
         """
-        discs = kernels.turned_discs(dabs, *self._shift, self._bounds)
+        discs = kernels.as_discs(dabs, *self._shift, self._bounds)
         if not len(discs):
             return set()
         codes, which, inside, runs = self._lists_of(max(_PAIRS_OF_ONE, min(_PAIRS, 16 * len(discs))))

@@ -12,7 +12,7 @@ import numpy as np
 
 from engine.brush import coat
 from engine.brush.covered import Covered, Looks
-from engine.brush.felt import tints_of
+from engine.brush.felt import is_dyed
 from engine.brush.heading import FIRST_WAY, nearest_ways
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.rim import rim_of_ink
@@ -37,7 +37,7 @@ class Painting(Covered):
     @staticmethod
     def ink_of(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink | None:
         """Returns the brush's ink, as `Covered.ink_of`."""
-        return (tinted_ink if tints_of(brush) else resolve)(brush, textures, level, seed)
+        return (tinted_ink if is_dyed(brush) else resolve)(brush, textures, level, seed)
 
     @staticmethod
     def looks(brush: Brush, ink: Ink | None) -> Looks:
@@ -54,7 +54,7 @@ class Painting(Covered):
             wet = wet_stamp(self, key, old)
             return None if wet is None else self._stained(key, wet)
         covered = self.coverage.tiles.get(key)
-        plain = not self.ink.loaded and not self.locked and self.coverage.tints is None
+        plain = not self.ink.loaded and not self.locked and self._dyed is None
         alike = covered if isinstance(covered, float) and plain else None
         if alike in self._flat:
             return self._flat[alike]
@@ -68,10 +68,8 @@ class Painting(Covered):
                 self._flat[alike] = made
             return made
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
-        if self.coverage.tints is not None and key in self.coverage.tints:
-            assert isinstance(self.ink, TintedInk)
-            places = self.coverage.places[key] if self.coverage.places is not None else None
-            inks, add = self._varied(keep, old, self.ink.tinted(key, self.coverage.tints[key], places))
+        if self._dyed is not None and key in self._dyed:
+            inks, add = self._tint(keep, key, old)
         elif self.ink.swayed:
             inks, add = self._sway(keep, key, old)
         elif self.locked:
@@ -104,6 +102,24 @@ class Painting(Covered):
             rim = within.depths(within.around(covered.tiles, key))
         ways = FIRST_WAY if self.scene.ways is None else nearest_ways(self.scene.ways.get(key))
         return self._varied(keep, old, self.ink.under(key, pressure, rim, ways))
+
+    @property
+    def _dyed(self) -> Mapping[TileKey, np.ndarray] | None:
+        """Gives the tints of dabs, or where their textures lie if they have none of their own; None if nothing is laid
+        under tints."""
+        if self.coverage.tints is not None:
+            return self.coverage.tints
+        return self.coverage.places if isinstance(self.ink, TintedInk) else None
+
+    def _tint(self, keep: np.ndarray, key: TileKey, old: Planes) -> tuple[tuple[Instance, ...], np.ndarray]:
+        """Returns the inks under the dabs' tints, and B."""
+        assert isinstance(self.ink, TintedInk)
+        tints, places = (self.coverage.tints or {}).get(key, self.ink.untinted), (self.coverage.places or {}).get(key)
+        inks = self.ink.inks_under(places)
+        add = np.empty((COLOURS + 3 * len(inks), TILE, TILE), np.float32)
+        weight = coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA])
+        self.ink.lay(key, tints, places, weight, add)
+        return inks, add
 
     def _varied(
         self, keep: np.ndarray, old: Planes, under: tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]

@@ -71,12 +71,12 @@ class Heights:
             self._memo[key] = known
         return known
 
-    def at(self, places: np.ndarray, level: int) -> np.ndarray:
-        """As `plane`, where the pixels lie in the texture, float32 (2, 128, 128)."""
+    def at(self, places: np.ndarray, covered: np.ndarray, level: int) -> np.ndarray:
+        """As `plane`, where the pixels lie in the texture, float32 (2, 128, 128), and anything is `covered`."""
         if self._patches is None:
             object.__setattr__(self, "_patches", Patches(lambda rect: grey(self.made, level, rect)[None]))
         assert self._patches is not None
-        found = np.ascontiguousarray(located(places, self._patches)[0])
+        found = np.ascontiguousarray(located(places, covered, self._patches)[0])
         look_up(found.reshape(-1), self.curve, _ONE, _ZERO)
         return found
 
@@ -195,7 +195,7 @@ class Relief:
         if self.grain is not None:
             _dig(out, self.grain.plane(key), np.float32(self.amounts[1]), out)
         if self.density is not None:
-            values = self.density.plane(key) if places is None else self.density.at(places, key.level)
+            values = self.density.plane(key) if places is None else self.density.at(places, out, key.level)
             _thin(out, values, np.float32(self.amounts[0]))
         return out
 

@@ -9,16 +9,20 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from engine.brush import sway
+from engine.brush.dyeing import dye
 from engine.brush.ink import Ink, Texture, refuse_ways, resolve
 from engine.brush.located import Patches, located
 from engine.brush.settings import Brush
-from engine.numeric.address import Rect, TileKey
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.oklch import lab_of, shift_colours
 from engine.texture.image import ImageSource
-from engine.texture.planes import sort_key
+from engine.texture.planes import COLOURS, sort_key
 from engine.texture.record import Instance
 from engine.texture.rock import Rock
 
@@ -26,17 +30,11 @@ _LOWEST, _HIGHEST = "#000000", "#ffffff"
 _SAMPLE = Rect(0, 0, 64, 64)  # by whose pixels the mean of a texture is told
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Linear:
+class _Linear(NamedTuple):
     """A value by colour: `low` over black, `low + slope` over white; float32 (3,) each."""
 
     low: np.ndarray
     slope: np.ndarray
-
-    def under(self, colour: np.ndarray) -> np.ndarray:
-        """float32 (3, h, w), under colours of that shape."""
-        out: np.ndarray = self.low[:, None, None] + self.slope[:, None, None] * colour
-        return out
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,9 +47,11 @@ class _Part:
 
 @dataclass(frozen=True, eq=False)
 class TintedInk(Ink):
-    """An ink that is also known under tints: a colour, and a factor for each of its `parts`."""
+    """An ink that is also known under tints: a colour, and a factor for each of its `parts`.  `own`: the brush's
+    colour, float32 (3,), as dabs have it that follow nothing."""
 
     parts: tuple[_Part, ...] = ()
+    own: np.ndarray = field(default_factory=lambda: np.zeros(3, np.float32))
     level: int = 0
     _patches: dict[Instance, Patches] = field(default_factory=dict, repr=False)
     _means: dict[Instance, np.ndarray] = field(default_factory=dict, repr=False)
@@ -77,19 +77,19 @@ class TintedInk(Ink):
         held: np.ndarray = np.clip(out, 0.0, 1.0)
         return held
 
-    def _seen(self, made: Instance, key: TileKey, places: np.ndarray | None) -> np.ndarray:
+    def _seen(self, made: Instance, key: TileKey, places: np.ndarray | None, covered: np.ndarray) -> np.ndarray:
         if places is None:
             return made.appearance(key.level, key.rect)[:3]
         if made not in self._patches:
             self._patches[made] = Patches(lambda rect: made.appearance(self.level, rect)[:3])
-        return located(places, self._patches[made])
+        return located(places, covered, self._patches[made])
 
     def rough(
-        self, key: TileKey, colour: np.ndarray, amounts: np.ndarray, places: np.ndarray | None
+        self, key: TileKey, colour: np.ndarray, amounts: np.ndarray, places: np.ndarray | None, covered: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
         """Returns, of a tile, by how much the ink differs from what it is on the whole under one `colour`, float32
         (3,), float32 (3, 128, 128); the amplitudes of its instances, and these.  `amounts`: of each part, float32
-        (parts, 128, 128); `places`: as of `tinted`."""
+        (parts, 128, 128); `places`: as of `lay`."""
         found: dict[Instance, np.ndarray] = {}
         for part, amount in zip(self.parts, amounts, strict=True):
             for made, amplitude in part.amplitudes:
@@ -98,30 +98,47 @@ class TintedInk(Ink):
         inks = tuple(sorted(found, key=lambda made: sort_key(made.key)))
         out = np.zeros((3, *amounts.shape[1:]), np.float32)
         for made in inks:
-            out += found[made] * (self._seen(made, key, places) - self.mean_of(made)[:, None, None])
+            out += found[made] * (self._seen(made, key, places, covered) - self.mean_of(made)[:, None, None])
         inks = _going_on(inks, places)
         return out, np.concatenate([found[made] for made in inks]) if inks else out[:0], inks
 
-    def tinted(
-        self, key: TileKey, tints: np.ndarray, places: np.ndarray | None = None
-    ) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
-        """Under tints, float32 (3 + parts, 128, 128), of a tile: as `Ink.under`.  `places`: where its pixels lie in the
-        textures (`located`), if these do not lie on the canvas: then only rock goes on at finer levels."""
-        under = tints[:3]
-        found: dict[Instance, np.ndarray] = {}
-        colour = under.copy()
-        for part, factor in zip(self.parts, tints[3:], strict=True):
-            colour += factor * part.shift.under(under)
-            for made, amplitude in part.amplitudes:
-                more = factor * amplitude.under(under)
-                found[made] = found[made] + more if made in found else more
-        inks = tuple(sorted(found, key=lambda made: sort_key(made.key)))
-        for made in inks:
-            colour += found[made] * self._seen(made, key, places)
-        inks = _going_on(inks, places)
-        planes = [found[made] for made in inks]
-        empty = np.empty((0, *under.shape[1:]), np.float32)
-        return colour, np.concatenate(planes) if planes else empty, inks
+    @cached_property
+    def _each(self) -> tuple[Instance, ...]:
+        every = {made for part in self.parts for made, _ in part.amplitudes}
+        return tuple(sorted(every, key=lambda made: sort_key(made.key)))
+
+    @cached_property
+    def _lines(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Shifts, terms and amplitudes, as `dye` wants them."""
+        shifts = np.array([part.shift for part in self.parts], np.float32).reshape(-1, 2, 3)
+        terms = [(n, *one) for n, part in enumerate(self.parts) for one in part.amplitudes]
+        told = np.array([(n, self._each.index(made)) for n, made, _ in terms], np.int64).reshape(-1, 2)
+        return shifts, told, np.array([line for *_, line in terms], np.float32).reshape(-1, 2, 3)
+
+    @cached_property
+    def untinted(self) -> np.ndarray:
+        """The tints of dabs that follow nothing, over a tile."""
+        told = np.concatenate([self.own, np.ones(len(self.parts), np.float32)])
+        return np.tile(told[:, None, None], (1, TILE, TILE))
+
+    def inks_under(self, places: np.ndarray | None) -> tuple[Instance, ...]:
+        """Returns the instances that have planes of their own under tints."""
+        return _going_on(self._each, places)
+
+    def lay(
+        self, key: TileKey, tints: np.ndarray, places: np.ndarray | None, weight: np.ndarray, add: np.ndarray
+    ) -> None:
+        """Writes B of a tile under tints, float32 (3 + parts, 128, 128), laid with a weight, float32 (128, 128), but
+        for alpha: float32 (4 + 3 n, 128, 128), n of `inks_under`.  `places`: where its pixels lie in the textures
+        (`located`), if these do not lie on the canvas: then only rock goes on at finer levels."""
+        looks = [self._seen(made, key, places, weight) for made in self._each]
+        seen = np.concatenate(looks) if looks else np.empty((0, *weight.shape), np.float32)
+        shown, inks, first = np.empty((len(looks), 4), np.int64), self.inks_under(places), 0
+        for row, made, look in zip(shown, self._each, looks, strict=True):
+            row[:3] = first + np.arange(3) % len(look)
+            row[3] = COLOURS + 3 * inks.index(made) if made in inks else -1
+            first += len(look)
+        dye(weight, tints, *self._lines, seen, shown, add)
 
 
 def _going_on(inks: tuple[Instance, ...], places: np.ndarray | None) -> tuple[Instance, ...]:
@@ -144,7 +161,9 @@ def tinted_ink(brush: Brush, textures: Mapping[str, Texture | ImageSource], leve
         each = dict.fromkeys((*ends[0], *ends[1]))
         amplitudes = tuple((made, _linear(*(end.get(made, none) for end in ends))) for made in each)
         parts.append(_Part(_linear(low.base, high.base - np.float32(1.0)), amplitudes))
-    return TintedInk(whole.base, whole.loaded, parts=tuple(parts), level=level)
+    own = np.array([[0.0, 1.0, 1.0]])  # of hue, lightness, chroma
+    shift_colours(own, lab_of(brush.rgb))
+    return TintedInk(whole.base, whole.loaded, parts=tuple(parts), own=own[0].astype(np.float32), level=level)
 
 
 def _linear(low: np.ndarray, high: np.ndarray) -> _Linear:

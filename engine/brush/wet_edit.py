@@ -38,7 +38,7 @@ def wet_stamp(edit: Covered, key: TileKey, old: Planes) -> Stamp | None:
         return None
     assert isinstance(ink, TintedInk)
     covered, places = edit.coverage.on_grid(key), (edit.coverage.places or {}).get(key)
-    rough, planes, inks = ink.rough(key, np.array(edit.brush.rgb, np.float32), tints[3:-1], places)
+    rough, planes, inks = ink.rough(key, np.array(edit.brush.rgb, np.float32), tints[3:-1], places, covered)
     keep = _ONE - _snapped(covered * tints[-1])
     if not (keep < _ONE).any():
         return None

@@ -44,7 +44,10 @@ def test_what_is_seen_at_places_is_the_texture_between_its_pixels():
         return (x + 0.5 + 1000 * (y + 0.5))[None].astype(np.float32)
 
     places = np.random.default_rng(5).uniform(-150, 150, (2, 40, 30)).astype(np.float32)
-    np.testing.assert_allclose(located(places, Patches(fetch))[0], places[0] + 1000 * places[1], atol=0.05)
+    covered = np.ones((40, 30), np.float32)
+    covered[7] = 0.0
+    wanted = (places[0] + 1000 * places[1]) * covered
+    np.testing.assert_allclose(located(places, covered, Patches(fetch))[0], wanted, atol=0.05)
 
 
 def test_stripes_run_along_the_stroke():

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from engine.brush import prints
 from engine.brush.copies import Copy, copied
-from engine.brush.discs import no_bounds, turned_discs
+from engine.brush.discs import as_discs, no_bounds
 from engine.brush.mask import StrokeMask
 from engine.brush.settings import from_json
 from engine.numeric.address import TILE, Rect
@@ -124,4 +124,4 @@ def test_windows_of_a_field_stay_as_the_field_lies():
     assert (found <= whole + 1e-6).all()
     assert 0.2 < found.sum() / whole.sum() < 0.9
     assert no_bounds()[4] == 0.0
-    assert turned_discs(dab(1, 2, 3, 0, 0.5), 0.0, 0.0, no_bounds()).shape == (1, 10)
+    assert as_discs(dab(1, 2, 3, 0, 0.5), 0.0, 0.0, no_bounds()).shape == (1, 10)

@@ -77,14 +77,16 @@ def test_an_ink_under_no_tint_but_its_own_is_the_ink(shaping):
     plain, made = resolve(brush, {}, 0, 1), tinted_ink(brush, {}, 0, 1)
     tints = np.ones((5, TILE, TILE), np.float32)
     tints[:3] = np.array(brush.rgb)[:, None, None]
-    colour, planes, inks = made.tinted(KEY, tints)
-    assert inks == plain.inks
-    np.testing.assert_allclose(colour, plain.field(KEY), atol=1e-6)
-    np.testing.assert_allclose(planes, np.broadcast_to(plain.amplitudes[:, None, None], planes.shape), atol=1e-6)
-    tints[3:] = 0.0
-    colour, planes, _ = made.tinted(KEY, tints)
-    assert not planes.any()
-    np.testing.assert_allclose(colour, tints[:3], atol=1e-6)
+    assert made.inks_under(None) == plain.inks
+    weight, add = np.ones((TILE, TILE), np.float32), np.empty((4 + 3, TILE, TILE), np.float32)
+    made.lay(KEY, tints, None, weight, add)
+    np.testing.assert_allclose(add[:3], plain.field(KEY), atol=1e-5)
+    np.testing.assert_allclose(add[4:], np.broadcast_to(plain.amplitudes[:, None, None], add[4:].shape), atol=1e-5)
+    tints[3:], weight[:, :50] = 0.0, 0.0
+    made.lay(KEY, tints, None, weight, add)
+    assert not add[4:].any()
+    assert not add[:3, :, :50].any()
+    np.testing.assert_allclose(add[:3, :, 50:], tints[:3, :, 50:], atol=1e-5)
 
 
 def test_only_brushes_that_lay_ink_have_tints_and_of_inks_that_there_are():
