@@ -11,6 +11,7 @@ from app.desk.filling.fill_state import all_gone_round, unbounded
 from app.desk.holding.desk_record import MOST_FAVOURITES
 from app.desk.holding.favourites import has_favourite, take_favourite
 from app.desk.moving.floating import let_go
+from app.desk.sharing.preset_work import restore
 from engine.studio.requests import Do
 
 
@@ -80,6 +81,10 @@ def _favourite(digit: int) -> A:
     )  # fmt: skip
 
 
+def _is_deleted(desk: Desk) -> bool:
+    return desk.asked.deleted is not None
+
+
 def _pop_up(desk: Desk) -> None:
     desk.hand_sight.palette_at = desk.pointer.x, desk.pointer.y
 
@@ -111,6 +116,9 @@ TOOL_ACTIONS: dict[str, A] = {
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), always, _is("zoom")),
     "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), always, _is("turn")),
     **{f"draw_{name}": _drawing(f"draw_{name}", *row) for name, row in _SHAPES.items()},
+    "restore_brush": A(
+        "Undo the deletion", "Tools", (), "Bring back the brush that was deleted last", restore, _is_deleted
+    ),
     "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.hand.resize(1 / 1.15)),
     "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.hand.resize(1.15)),
     **{f"favourite_{digit}": _favourite(digit) for digit in range(1, MOST_FAVOURITES + 1)},

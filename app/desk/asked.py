@@ -49,7 +49,7 @@ class Asked:
     `bake`: what makes paint of a placement and loses detail; `film`: what is chosen of the film that is asked for;
     `bringing`: a picture that was given to the painting, and to which place of the canvas; `doctor`: one of which
     the texture doctor is asked; `ground`: a map that is to
-    be laid; `brush`: one that is to be shared."""
+    be laid; `brush`: one that is to be shared; `deleted`: what brings the last one back that was deleted."""
 
     dialog: str = ""
     shown: str = ""
@@ -70,6 +70,7 @@ class Asked:
     doctor: Path | None = None
     ground: FoundMap | None = None
     brush: Preset | None = None
+    deleted: Then | None = None
 
     def show(self, dialog: str) -> None:
         """Opens a dialog by its name."""

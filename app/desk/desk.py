@@ -183,11 +183,17 @@ class Desk:
         self.known = replace(self.known, **known)
 
     def say(
-        self, text: str, bad: bool = False, offer: str = "", offers: tuple[str, ...] = (), of: LayerRow | None = None
+        self,
+        text: str,
+        bad: bool = False,
+        offer: str = "",
+        offers: tuple[str, ...] = (),
+        of: LayerRow | None = None,
+        seconds: float = MESSAGE_SECONDS,
     ) -> None:
         """Shows a line in the status line for some seconds; with buttons for an action that it may `offer`, or more;
         while the layer that it tells `of` is as it is."""
-        until = time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1)
+        until = time.monotonic() + seconds * (2 if bad else 1)
         self.message = Message(text, bad, until, (offer,) if offer else offers, of)
 
     def told(self, note: Note) -> None:

@@ -204,6 +204,16 @@ def delete(preset: Preset) -> None:
         preset.path.unlink(missing_ok=True)
 
 
+def put_back(preset: Preset, told: bytes, taken: Iterable[str]) -> Preset:
+    """Writes the file of a brush that was deleted again, as it was; under another name where that is `taken` since."""
+    name = free_among(preset.name, taken)
+    if preset.path is None or name != preset.name or preset.path.exists():
+        return written(replace(preset, name=name), own_folder())
+    with replacing(preset.path) as file:
+        file.write(told)
+    return preset
+
+
 def stem_of(name: str) -> str:
     """Returns a brush's name as a file may be called."""
     return "".join(ch if ch.isalnum() else "-" for ch in name.lower()).strip("-") or "brush"

@@ -11,9 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
+from app.actions.actions import ACTIONS
 from app.canvas.view import Place, View
 from app.desk import presets
-from app.desk.desk import Desk
+from app.desk.desk import Desk, Message
 from app.desk.files import carried_out
 from app.desk.holding import kept_desk
 from app.desk.holding.desk_record import KeptDesk
@@ -91,6 +92,25 @@ def test_a_brush_is_copied_named_put_into_a_group_of_its_own_and_found_by_tags(d
     assert (desk.kept.favourites, desk.hand.preset) == (("Pencil", "Sea"), "Sea")
     desk.work(work.DeletePreset(named(desk, "Sea")))
     assert not on_disk()
+
+
+def test_a_deleted_brush_comes_back_as_it_was_where_it_was(desk):
+    for name in ("Pencil", "Gouache"):
+        work.duplicate(desk, named(desk, name))
+    mine, undo = named(desk, "Pencil 2"), ACTIONS["restore_brush"]
+    before, told = desk.known.presets, mine.path.read_bytes()
+    assert not undo.when(desk)
+    desk.work(work.DeletePreset(mine))
+    assert sorted(on_disk()) == ["Gouache 2"]
+    assert (desk.message.text, desk.message.offers) == ("Deleted the brush “Pencil 2”", ("restore_brush",))
+    desk.message = Message()  # it is gone; the action stays
+    undo.do(desk)
+    assert (desk.known.presets, mine.path.read_bytes()) == (before, told)
+    assert not undo.when(desk)
+    desk.work(work.DeletePreset(mine))
+    work.duplicate(desk, named(desk, "Pencil"))  # another one under its name
+    undo.do(desk)
+    assert sorted(on_disk()) == ["Gouache 2", "Pencil 2", "Pencil 2 2"]
 
 
 def test_what_cannot_be_written_is_told_and_nothing_is_lost(desk, monkeypatch):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from app.desk import palette, presets
@@ -15,6 +16,7 @@ from app.desk.sharing.strangers import STRANGERS, BringStrangers
 
 BRUSH = ".inkbrush"  # the ending of a shared brush
 BRUSHES = (BRUSH, *STRANGERS)  # of all that can be brought in
+_TO_REGRET = 20.0  # seconds for which undoing a deletion is offered; in the list of actions it stays
 
 
 def _without(stay: tuple[str, ...]) -> str:
@@ -81,18 +83,53 @@ class DeletePreset(FileWork):
 
     preset: Preset
 
-    def carry_out(self) -> None:
-        """Removes it."""
+    def carry_out(self) -> bytes:
+        """Removes it; returns what was in it."""
+        told = b"" if self.preset.path is None else self.preset.path.read_bytes()
         presets.delete(self.preset)
+        return told
 
-    def arrive(self, desk: Desk, found: None) -> None:
-        """Lists it no more."""
+    def arrive(self, desk: Desk, found: bytes) -> None:
+        """Lists it no more, and offers to bring it back."""
+        place = next((i for i, one in enumerate(desk.known.presets) if one is self.preset), 0)
         desk.learn(presets=tuple(one for one in desk.known.presets if one is not self.preset))
-        desk.say(f"Deleted the brush “{self.preset.name}”")
+        desk.asked.deleted = partial(desk.work, RestorePreset(self.preset, found, place))
+        desk.say(f"Deleted the brush “{self.preset.name}”", offer="restore_brush", seconds=_TO_REGRET)
 
     def fail(self, desk: Desk, fault: str) -> None:
         """Tells why it is still there."""
         desk.say(f"The brush was not deleted: {fault}", bad=True)
+
+
+@dataclass(frozen=True, slots=True)
+class RestorePreset(FileWork):
+    """Brings back one that was deleted: its file `told` this, and it was listed at this `place`."""
+
+    preset: Preset
+    told: bytes
+    place: int
+
+    def carry_out(self) -> Preset:
+        """Writes the file again."""
+        names = (one.name for one in presets.load_brushes(presets.own_folder())[0])
+        return presets.put_back(self.preset, self.told, names)
+
+    def arrive(self, desk: Desk, found: Preset) -> None:
+        """Lists it where it was."""
+        listed = desk.known.presets
+        desk.learn(presets=(*listed[: self.place], found, *listed[self.place :]))
+        desk.asked.deleted = None
+        desk.say(f"The brush “{found.name}” is back")
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        """Tells why it is not there."""
+        desk.say(f"The brush was not brought back: {fault}", bad=True)
+
+
+def restore(desk: Desk) -> None:
+    """Brings back the brush that was deleted last."""
+    if desk.asked.deleted is not None:
+        desk.asked.deleted()
 
 
 @dataclass(frozen=True, slots=True)
