@@ -11,11 +11,12 @@ from app.desk.workshop.workshop_state import USUALLY, TextTold, WorkshopState
 from app.desk.workshop.workshop_work import ReadText, WriteText
 from app.panels.workshop import text_colours as colours
 from app.panels.workshop.completing import Offer, accepted, function_around, offers, word_before
+from engine.brush.ink import resolve
 from engine.brush.parts import Component
 from engine.brush.settings import Brush
 from engine.canvas.layers import EMPTY
-from engine.makers.makers import named_by
-from engine.numeric.address import Rect
+from engine.makers.makers import define, named_by
+from engine.numeric.address import Rect, TileKey
 from engine.painting.commands import DefineTexture
 from engine.painting.textures import Around
 from engine.studio.workshop.language_words import language_words
@@ -162,6 +163,23 @@ def test_a_brush_is_explained_by_a_text_that_shows_the_same(kind, angle, phase):
     seen = expression({"text": found.text, "period": found.told.period}, 0).means(0, rect)[0]
     wanted = 0.5 + 0.5 * WAVES[kind](0, 24.0, angle, phase).appearance(0, rect)[0]
     assert np.abs(seen - wanted).mean() < 1e-3
+
+
+def test_a_brush_is_explained_with_its_own_textures_by_their_names_shaped_and_summed():
+    shapes = ({"shape": "wedge", "angle": 90, "spread": 16, "slope": 0.7},)
+    made = DefineTexture("Deep furrows", "spectrum", Map({"size": (64, 64), "seed": 4, "shapes": shapes}))
+    parts = Map({"period": 48}), Map({"period": 24.0})
+    bent = ((0.0, 0.0), (0.4, 0.1), (0.6, 0.8), (1.0, 1.0))
+    ink = Component("Deep furrows", 0.8, "#b08e70", parts[0], bent), Component("stripes", 0.4, "#231713", parts[1])
+    brush = Brush(colour="#5a4234", ink=ink)
+    found = explained(brush, (made,))
+    assert "left out" not in found.text
+    textures = {made.name: define(made, EMPTY, Around())}
+    named = named_by(found.text, EMPTY, Around(textures=Map(textures)))
+    text = expression({"text": found.text, "period": found.told.period, "named": dict(named)}, 0)
+    key = TileKey(0, 0, 0)
+    seen, wanted = text.appearance(0, key.rect)[:3], resolve(brush, textures, 0, 0).field(key)
+    assert np.abs(seen - wanted).mean() < 0.01
 
 
 def test_a_written_texture_is_explained_by_its_own_text_and_a_picture_not_at_all():

@@ -60,6 +60,7 @@ def draw_texts(desk: Desk, field: TextField) -> None:
 
 def _explain(desk: Desk) -> None:
     """Opens what the brush paints with as a text."""
+    palette.provide(desk)  # the text names them
     found = explained(mixed_now(desk.hand), palette.belonging(desk)[0])
     if found is None:
         desk.say("The language has no words for what this brush paints with", bad=True)
