@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.actions.action import Action as A
-from app.actions.action import asks, paint_chosen, ready, to_now
+from app.actions.action import asks, chosen, paint_chosen, ready, to_now
 from app.desk.desk import Desk
 from app.desk.guides import symmetry
 from app.desk.hand import BLACK, WHITE
@@ -34,6 +34,11 @@ def _go(desk: Desk, command: c.Undo | c.Redo) -> None:
 
 def _can_redo(desk: Desk) -> bool:
     return ready(desk) and desk.known.scene is not None and desk.known.scene.can_redo
+
+
+def _can_copy(desk: Desk) -> bool:
+    row = desk.known.active
+    return chosen(desk) and row is not None and not row.group
 
 
 def _can_cut(desk: Desk) -> bool:
@@ -67,7 +72,7 @@ EDIT_ACTIONS: dict[str, A] = {
         "Copy picture", "Edit", ("Ctrl+Shift+C",), "Copy the whole frame, for other programs", clipboard.ask_copy, ready
     ),
     "cut": A("Cut", "Edit", ("Ctrl+X",), "Take what is selected off, to paste it", copied_parts.cut_part, _can_cut),
-    "copy": A("Copy", "Edit", ("Ctrl+C",), "Copy what is selected, to paste it", copied_parts.copy_part, paint_chosen),
+    "copy": A("Copy", "Edit", ("Ctrl+C",), "Copy what is selected, to paste it", copied_parts.copy_part, _can_copy),
     "paste": A("Paste", "Edit", ("Ctrl+V",), "Lay what was copied last on a layer of its own", clipboard.paste, ready),
     "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
     "default": A("Black and white", "Edit", ("D",), "Set the colours to black and white", _default_colours),

@@ -12,11 +12,13 @@ from engine.canvas.heaps.joined_heaps import selected_of
 from engine.canvas.layers import Group, Layer
 from engine.canvas.merging.cleared import without
 from engine.canvas.node_checks import LayerError
+from engine.canvas.placing.placement import Placement
 from engine.canvas.store import Pyramid
 from engine.checks.roles import COPIED
 from engine.painting.commands import DuplicateLayer
 from engine.painting.layer_commands import CUT
 from engine.painting.value import Painting, Refusal, with_node
+from engine.session.masking import made_paint
 from engine.session.merging import cleared
 
 
@@ -43,8 +45,10 @@ def lifted(painting: Painting, command: DuplicateLayer) -> Painting:
 
 
 def with_copy(painting: Painting, name: str) -> Painting:
-    """Returns the painting with what is selected of a layer, all of it where nothing is, held to be pasted."""
-    node = _paint(painting, name)
+    """Returns the painting with what is selected of a layer, all of it where nothing is, held to be pasted; of what a
+    placement shows likewise: exact, or as pixels of the finest level of its source."""
+    shown = layers.find(painting.root, name)
+    node = made_paint(painting, shown) if isinstance(shown, Placement) else _paint(painting, name)
     part = selected_paint(painting, node).branched()
     held = replace(node, locked=False, role="", clip=False, pyramid=part, growth=())
     return replace(painting, copied=replace(held, heaps=selected_of(node, painting.selection)))
@@ -52,6 +56,7 @@ def with_copy(painting: Painting, name: str) -> Painting:
 
 def with_cut(painting: Painting, name: str) -> Painting:
     """Returns the painting with that held, and taken off the layer: the two add up to what was there."""
+    _paint(painting, name)
     return cleared(with_copy(painting, name), name)
 
 

@@ -113,6 +113,18 @@ def test_what_cannot_be_copied_leaves_what_was():
     assert not layers.is_locked(session.painting.root, "New")
 
 
+@pytest.mark.parametrize("place", [{"turn": 1, "mirror": True, "at": [99, 99]}, {"c": [0.8, 0.6], "at": [30, -9]}])
+def test_what_a_placement_shows_is_copied_and_cannot_be_cut(place):
+    shown = layer("add", "P") | {"kind": "placement", "of": "Layer 1", **place}
+    session, baked = (told(Session(), STROKE, OTHER, shown) for _ in range(2))
+    told(session, OVAL, layer("copy", "P"), NONE, PASTE)
+    told(baked, layer("bake", "P"), OVAL, layer("copy", "P"), NONE, PASTE)
+    assert planes(session, "New").any()
+    assert (planes(session, "New") == planes(baked, "New")).all()
+    with pytest.raises(Refusal, match="expected one to copy from"):
+        session.do(c.parse(layer("cut", "P")))
+
+
 @given(st.lists(st.sampled_from([STROKE, OVAL, NONE, COPY, CUT, PASTE, UNDO, UNDO, REDO]), min_size=4, max_size=9))
 @settings(max_examples=8, deadline=None)
 def test_a_replay_is_equal_and_the_steps_are_those_of_the_history(commands):
