@@ -38,7 +38,7 @@ class SolidView:
         if state.carved is None or min(width, height) < SMALLEST_ROOM:
             return
         rest = state.rest if state.rest is not None and state.rest.of == state.seen else None
-        told = (state.carved, state.room, state.turn, state.scale, state.turning, rest)
+        told = (state.carved, state.room, state.turn, state.carved.scale(state.scale), state.turning, rest)
         if told == self._drawn:
             return
         self._drawn = told
@@ -87,7 +87,7 @@ class SolidView:
         target.clear(*BEHIND, 1.0)
         self._solid.use(0)
         program = self._program
-        program["scale"], program["gloss"] = state.scale, state.carved.solid.gloss
+        program["scale"], program["gloss"] = state.carved.scale(state.scale), state.carved.solid.gloss
         lens = 1.0 / state.carved.nearness * min(1.0, width / height)
         program["lens"] = lens * height / width, -lens  # the picture's first row is the uppermost
         program["turned"] = tuple(turned_by(*state.turn).T.reshape(-1).tolist())

@@ -46,28 +46,29 @@ WRAPPED: dict[str, Ways] = {"sphere": _ball, "torus": _ring}
 @dataclass(frozen=True, eq=False)
 class ObjectMap:
     """A texture that tiles, float32 (h, w, 3), 0..1, on an object of a name, whose places are told as those of a solid
-    of a `scale`; as often around it as comes nearest to a texture's width for each 1 / scale of its length."""
+    of a `scale`; as often around it as comes nearest to a texture's width for each 1 / `often` of its length."""
 
     levels: tuple[np.ndarray, ...]
     name: str
     scale: float
+    often: float
     gloss: float = 0.3
 
     @classmethod
-    def of(cls, picture: np.ndarray, name: str, scale: float) -> ObjectMap:
-        """Wraps a picture, float32 (3, h, w)."""
-        levels = [picture]
+    def of(cls, picture: np.ndarray, name: str, scale: float, often: float | None = None) -> ObjectMap:
+        """Wraps a picture, float32 (3, h, w), or (1, h, w) of greys; `often` is the scale, if nothing is said."""
+        levels = [np.broadcast_to(picture, (3, *picture.shape[1:]))]
         while min(levels[-1].shape[1:]) >= 2 * _COARSEST and not (levels[-1].shape[1] % 2 or levels[-1].shape[2] % 2):
             levels.append(reduce(levels[-1]))
-        return cls(tuple(np.moveaxis(level, 0, 2) for level in levels), name, scale)
+        return cls(tuple(np.moveaxis(level, 0, 2) for level in levels), name, scale, scale if often is None else often)
 
     def colours(self, points: np.ndarray, finest: float) -> np.ndarray:
         """Returns the texture's colours at points (N, 3), as `Lookup.colours`."""
         across, up, wide, high = WRAPPED.get(self.name, _column)((points - 0.5) / self.scale)
         height, width = self.levels[0].shape[:2]
-        around = max(1, round(wide * self.scale))
-        upwards = max(1, round(high * self.scale * width / height))
-        seen = finest * width
+        around = max(1, round(wide * self.often))
+        upwards = max(1, round(high * self.often * width / height))
+        seen = finest * width * (self.often / self.scale)
         level = min(len(self.levels) - 1, max(0, int(np.log2(max(seen, 1.0)))))
         return _between(self.levels[level], across * around, (1.0 - up) * upwards)
 

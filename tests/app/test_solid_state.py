@@ -9,7 +9,7 @@ from PIL import Image
 
 from app.desk.solids import cube_work
 from app.desk.solids.cube_work import ListCubes, bring_cube
-from app.desk.solids.shown_solid import turned_by
+from app.desk.solids.shown_solid import MAP_SCALE, turned_by
 from app.desk.solids.solid_state import OBJECTS, SolidState
 from app.desk.solids.solid_work import BEHIND, Carve, Rest, pictures_at_rest
 from app.panels.solids.solid_panel import SolidPanel
@@ -123,6 +123,30 @@ def test_a_cube_is_brought_kept_and_shown(tmp_path, monkeypatch):
     desk.solid.carved = Carve(desk.solid.made, desk.solid.name, 48, None).carry_out()
     assert desk.solid.carved.cube.shape == (9, 9, 9, 3)
     assert desk.solid.lacks == 0
+
+
+def test_a_picture_goes_around_the_object_at_the_scale_that_is_set(tmp_path):
+    tiles = np.zeros((16, 16, 3), np.uint8)
+    tiles[:, :8] = 200, 40, 90
+    Image.fromarray(tiles).save(tmp_path / "stripes.png")
+    state = SolidState(name="sphere", room=(24, 16), scale=0.7, painting=True)
+    state.wrap(str(tmp_path / "stripes.png"))
+    assert (state.wrapped, state.painting) == (True, False)
+    state.carved = Carve(state.made, state.name, 24, None).carry_out()
+    assert state.aspect.scale == MAP_SCALE
+    equator = np.array([(np.cos(a), np.sin(a), 0.0) for a in np.linspace(0.0, 2.0 * np.pi, 4000, endpoint=False)])
+    red = state.carved.solid.colours(MAP_SCALE * equator + 0.5, 1e-4)[:, 0]
+    assert (np.diff(red > 0.4) != 0).sum() == 2 * round(2.0 * np.pi * 0.7)  # whole stripes: no seam
+    for told in ({"scale": 1.4}, {"name": "torus"}):
+        before = state.carved
+        for name, value in told.items():
+            setattr(state, name, value)
+        assert state.lacks == 48
+        state.carved = Carve(state.made, state.name, 24, before).carry_out()
+        assert not np.array_equal(state.carved.cube, before.cube)
+    state.material = "granite"
+    assert not state.wrapped
+    assert state.made[2] == ()
 
 
 def test_the_panel_has_drawn_what_rests_each_time_that_it_was_turned(tmp_path, monkeypatch):

@@ -7,12 +7,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from engine.solids.material_sliders import MATERIALS
+
 if TYPE_CHECKING:
     from engine.painting.layering.touch_command import Touch
     from engine.solids.solid_lookup import Lookup
 
+MAP_SCALE = 0.49  # of what is wrapped around an object: all of that lies in the cube once, and half a voxel beside it
 NEARNESS, EYE_AWAY = 0.17, 6.4  # of the picture's half height for a unit at distance 1; of the eye from the middle
-Made = tuple[str, int, tuple[tuple[str, float], ...]]  # a material, or a cube's path; its seed; values of sliders
+# A material, or the path of a cube or picture; its seed; values of sliders, or around which object it goes how often.
+Made = tuple[str, int, tuple[tuple[str, float], ...]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,12 +36,22 @@ class Carved:
     faces: np.ndarray
     fewer: np.ndarray
 
+    def scale(self, asked: float) -> float:
+        """Returns the scale by which the solid is looked up, where one is asked for."""
+        return MAP_SCALE if is_wrapped(self.made) else asked
+
     @property
     def nearness(self) -> float:
         """Gives the picture's half height for a unit at distance 1, so that all of the object is seen however it is
         turned: corners of a cube reach farther than a unit."""
         places = self.corners[:, :3]
         return NEARNESS * max(1.0, float(np.sqrt(np.einsum("ij,ij->i", places, places).max(initial=0.0))))
+
+
+def is_wrapped(made: Made) -> bool:
+    """Tells whether what is made is a picture that goes around an object."""
+    material, _, values = made
+    return bool(values) and material not in MATERIALS
 
 
 class Aspect(NamedTuple):

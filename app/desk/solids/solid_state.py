@@ -38,8 +38,9 @@ class SolidState:
     the upright axis, and forwards; `scale`: of the solid; `depth`: of the slice that becomes ink; `room`: pixels of the
     picture; `turning`: by hand, right now; `busy`: something is being carved; `awaited`: the texture that is to be ink;
     `rest`: what is seen at rest; `resting`: of what that is being made; `cubes`: paths of those that are kept, None
-    while nobody has looked; `growing`: the cube that grows; `corner`: of the picture, on the screen; `touches`: what is
-    painted on the solid; `painting`: the pen paints on it; `stroke`: the one that is being painted."""
+    while nobody has looked; `maps`: pictures that go around the object; `growing`: the cube that grows; `corner`:
+    of the picture, on the screen; `touches`: what is painted on the solid; `painting`: the pen paints on it;
+    `stroke`: the one that is being painted."""
 
     material: str = USUAL_MATERIAL
     name: str = USUAL_OBJECT
@@ -56,6 +57,7 @@ class SolidState:
     rest: AtRest | None = None
     resting: Aspect | None = None
     cubes: tuple[str, ...] | None = None
+    maps: tuple[str, ...] = ()
     growing: Growth | None = None
     corner: tuple[float, float] = (0.0, 0.0)
     touches: tuple[Touch, ...] = ()
@@ -63,8 +65,20 @@ class SolidState:
     stroke: TouchUp | None = None
 
     @property
+    def wrapped(self) -> bool:
+        """Tells whether a picture goes around the object, in place of a solid through it."""
+        return self.material in self.maps
+
+    def wrap(self, path: str) -> None:
+        """Has a picture that tiles go around the object."""
+        self.material, self.painting = path, False
+        self.maps = (*(known for known in self.maps if known != path), path)
+
+    @property
     def made(self) -> Made:
         """Returns the material as it is set."""
+        if self.wrapped:
+            return self.material, 0, ((self.name, round(self.scale, 3)),)
         return self.material, self.seed, tuple(sorted(self.values.get(self.material, {}).items()))
 
     @property
@@ -94,7 +108,7 @@ class SolidState:
         """Returns what is seen of the object, finished or not."""
         if self.carved is None or min(self.room) < SMALLEST_ROOM:
             return None
-        return Aspect(self.carved, self.room, self.turn, self.scale)
+        return Aspect(self.carved, self.room, self.turn, self.carved.scale(self.scale))
 
     @property
     def seen(self) -> Aspect | None:

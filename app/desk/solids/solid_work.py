@@ -10,7 +10,7 @@ import numpy as np
 
 from app.desk.desk import Desk, FileWork
 from app.desk.solids.painted_cube import as_bytes, painted_cube, painted_on, voxel_middles
-from app.desk.solids.shown_solid import Aspect, AtRest, Carved, Made
+from app.desk.solids.shown_solid import MAP_SCALE, Aspect, AtRest, Carved, Made, is_wrapped
 from app.desk.solids.solid_state import LAST_SIDE, USUAL_MATERIAL, USUAL_OBJECT
 from app.desk.solids.working import for_a_while
 from engine.solids.material_sliders import MATERIALS
@@ -61,10 +61,14 @@ class Carve(FileWork):
         from engine.solids.solid_lookup import Cubed, Procedural
 
         material, seed, values = self.made
+        if is_wrapped(self.made):
+            return self._coloured(_wrapped(self.made))
         if material not in MATERIALS:
             voxels = read_cube(material)
             return Cubed(voxels, seed=seed), np.rint(255.0 * voxels).astype(np.uint8), True
-        solid = Procedural(material, seed, dict(values))
+        return self._coloured(Procedural(material, seed, dict(values)))
+
+    def _coloured(self, solid: Lookup) -> tuple[Lookup, np.ndarray, bool]:
         places = voxel_middles((self.side,) * 3)
         cube = as_bytes(solid.colours(places, 1.0 / self.side)).reshape((self.side,) * 3 + (3,))
         return solid, cube, self.side >= LAST_SIDE
@@ -84,6 +88,16 @@ class Carve(FileWork):
             desk.solid.material = USUAL_MATERIAL if before == self.made[0] else before
             desk.solid.cubes = None  # the file may be gone
         desk.say(fault, bad=True)
+
+
+def _wrapped(made: Made) -> Lookup:
+    """Returns a picture that goes around an object."""
+    from engine.makers.lewis import flattened
+    from engine.painting.capture import read_picture
+    from engine.solids.object_map import ObjectMap
+
+    path, _, ((name, often),) = made
+    return ObjectMap.of(flattened(read_picture(path, None)), name, MAP_SCALE, often)
 
 
 def pictures_at_rest(seen: Aspect) -> Iterator[AtRest | None]:

@@ -262,6 +262,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "solid mesh": file_browser.choosing_mesh,
     "solid cube": file_browser.choosing_cube,
     "drawn cube": file_browser.choosing_drawn_cube,
+    "wrapped picture": file_browser.choosing_wrapped,
     "bring from": file_browser.choosing_to_bring,
     "bring in": BringIn,
     "texture doctor": DoctorDialog,

@@ -292,6 +292,11 @@ def choosing_drawn_cube(desk: Desk) -> SystemDialog | Browser:
     return _chooser(desk, "A solid drawn out of a picture", DRAWABLE, lambda d, path: bring_cube(d, path, drawn=True))
 
 
+def choosing_wrapped(desk: Desk) -> SystemDialog | Browser:
+    """A picture that goes around the object."""
+    return _chooser(desk, "A picture that tiles, around the object", DRAWABLE, lambda d, path: d.solid.wrap(str(path)))
+
+
 def choosing_to_bring(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture, or a file of layers, to bring into the painting, in the middle of what is seen."""
     return _chooser(desk, "Bring in a picture", _BROUGHT, bringing.offer)

@@ -28,8 +28,8 @@ from engine.studio.requests import Do
 _DEGREES = 0.45  # for each pixel of a drag
 _UNIT = 256  # pixels of the slice that is ink
 _OWN, _LONGEST = "", 24  # what asks for a mesh; letters of its name
-_DRAWN = "drawn"
-_ASKED = {_OWN: "solid cube", _DRAWN: "drawn cube"}  # dialogs, by what asks for them
+_DRAWN, _WRAPPED = "drawn", "wrapped"
+_ASKED = {_OWN: "solid cube", _DRAWN: "drawn cube", _WRAPPED: "wrapped picture"}  # dialogs, by what asks for them
 
 
 class SolidPanel(Panel):
@@ -40,7 +40,7 @@ class SolidPanel(Panel):
         state, scene = desk.solid, desk.known.scene
         if state.stroke is not None:
             return
-        state.touches = scene.touches.get(state.solid_name, ()) if scene is not None else ()
+        state.touches = scene.touches.get(state.solid_name, ()) if scene is not None and not state.wrapped else ()
         side, seen = state.lacks, state.seen
         if state.cubes is None:
             state.cubes = ()
@@ -112,8 +112,10 @@ class SolidPanel(Panel):
         state, wide = desk.solid, imgui.get_content_region_avail().x
         side = imgui.get_frame_height()
         hint = "The brush paints on the object, into the solid; the right button, or a drag beside it, turns it"
+        imgui.begin_disabled(state.wrapped)
         if w.lit_button(f"{icons.BRUSH} Paint on it", hint, state.painting, wide - side - 2 * desk.scale):
             state.painting = not state.painting
+        imgui.end_disabled()
         imgui.same_line(0, 2 * desk.scale)
         hint = f"Take all paint off the {state.solid_name}; Undo brings it back"
         if w.icon_button("clean", icons.DELETE, hint, enabled=bool(state.touches), size=side):
@@ -150,7 +152,8 @@ class SolidPanel(Panel):
                 state.set(name, float(round(value)) if slider.whole else round(value, 3))
         hint = "How much of the block the object takes: smaller shows it larger"
         _, state.scale = w.slider("Scale", state.scale, SOLID_SCALES, hint, curved=True)
-        _, state.depth = w.slider("Slice", state.depth, (0.0, DEEPEST_SLICE), "How deep the block is cut for ink")
+        if not state.wrapped:
+            _, state.depth = w.slider("Slice", state.depth, (0.0, DEEPEST_SLICE), "How deep the block is cut for ink")
 
     def _cubes(self, desk: Desk) -> None:
         """Chooses among cubes that are kept, or asks for another."""
@@ -159,12 +162,13 @@ class SolidPanel(Panel):
             if w.text_button("Stop growing", "Goes on with the solid that is shown", width=wide):
                 state.growing = None
             return
-        kept = [(path, PurePath(path).stem[:_LONGEST]) for path in state.cubes or ()]
+        kept = [(path, PurePath(path).stem[:_LONGEST]) for path in (*(state.cubes or ()), *state.maps)]
         if state.material not in MATERIALS and state.material not in dict(kept):
             kept.append((state.material, PurePath(state.material).stem[:_LONGEST]))
         shown = "Like a picture…" if state.material in MATERIALS else state.material
-        hint = "Grown from a picture until every cut looks like it, drawn out of one in layers, or a cube from a file"
+        hint = "Grown from a picture, drawn out of one in layers, wrapped around the object, or a cube from a file"
         asked = [(_OWN, "From a picture or a cube…"), (_DRAWN, "Drawn out of a picture…")]
+        asked.append((_WRAPPED, "Wrapped around it…"))
         chosen = w.choice("cube", shown, [*kept, *asked], hint, wide)
         if chosen in _ASKED:
             desk.asked.show(_ASKED[chosen])
@@ -175,7 +179,8 @@ class SolidPanel(Panel):
         state = desk.solid
         text = f"{icons.WAIT} cutting…" if state.awaited else f"{icons.BRUSH} Use as ink"
         hint = "Cuts the block across the way you look at it: the slice becomes the brush's ink, and tiles"
-        if w.accent_button(text, hint, enabled=not state.awaited, width=imgui.get_content_region_avail().x):
+        ready = not state.awaited and not state.wrapped
+        if w.accent_button(text, hint, enabled=ready, width=imgui.get_content_region_avail().x):
             material, seed, values = state.made
             state.awaited = pictured.free_texture_name(desk, PurePath(material).stem)
             named = "material" if material in MATERIALS else "cube"
