@@ -1,12 +1,14 @@
 """The real window, painted in at random: `python -m bench.random_window SECONDS SEED FOLDER`.
 
-Prints JSON lines: what the window is, what it holds after every `TELL` seconds, and the faults that it tells.
+Prints JSON lines: what the window is, what it holds after every `TELL` seconds, and the faults that it tells.  With
+`INKFALL_HOLDERS`, a folder, who holds arrays is written there every so often (`bench.holders`).
 """
 
 from __future__ import annotations
 
 import json
 import logging
+import os
 import sys
 import time
 from collections.abc import Callable
@@ -18,6 +20,7 @@ import numpy as np
 
 from app.loop import SWITCH, opened_window  # first: it imports imgui before glfw
 from app.window import Window
+from bench.holders import allocated, tell_holders
 from bench.random_hand import RandomHand
 from bench.zooming import until
 from engine.journal.heads import head_of_new
@@ -29,6 +32,8 @@ from engine.studio.journalled.posts import Posts
 import glfw  # isort: skip
 
 TELL = 30.0  # seconds
+HOLDERS = "INKFALL_HOLDERS"
+SELDOM = 10  # times that it is told what the window holds, after which it is written down who holds arrays
 
 
 def main(seconds: float, seed: int, folder: Path) -> None:
@@ -71,7 +76,7 @@ def _paint(window: Window, hand: RandomHand, seconds: float, sessions: list[Call
     works, over, now = hand.work(), Event(), time.monotonic()
     dues = [now]
     Thread(target=_wake, args=(dues, over), daemon=True).start()
-    end, telling, notes = now + seconds, now, -1
+    end, telling, notes, told = now + seconds, now, -1, 0
     try:
         while (now := time.monotonic()) < end and not window.closed():
             while dues[0] <= now:
@@ -79,6 +84,9 @@ def _paint(window: Window, hand: RandomHand, seconds: float, sessions: list[Call
             if now >= telling:
                 telling += TELL
                 _say(**_held(window, sessions), done=hand.done)
+                told += 1
+                if told % SELDOM == 0 and HOLDERS in os.environ:
+                    tell_holders(Path(os.environ[HOLDERS], f"{told}.json"))
             if len(window.desk.notices.rows) != notes:
                 notes = len(window.desk.notices.rows)
                 for notice in window.desk.notices.rows:
@@ -109,6 +117,8 @@ def _held(window: Window, sessions: list[Callable[[], Any]]) -> dict[str, Any]:
         "steps": session.history.undo_count,
         "commands": len(session.log),
         "entry": sum(files),
+        "waiting": len(window.engine.worker._posted),
+        "malloc": allocated(),
         "threads": len(list(Path("/proc/self/task").iterdir())),
         "level": window.desk.view.level,
     }

@@ -1,5 +1,8 @@
 """What an hour of random painting comes to."""
 
+import numpy as np
+
+from bench.holders import holders
 from bench.hour import BOUND, percentiles, verdict
 
 
@@ -19,3 +22,14 @@ def test_one_ping_in_twenty_may_be_late():
     assert judged([300], [BOUND] * 96 + [10 * BOUND] * 4) == (True, True, True)
     assert judged([300], [BOUND] * 90 + [10 * BOUND] * 10) == (True, True, False)
     assert percentiles([float(n) for n in range(101)])["ping 95 %"] == 95.0
+
+
+def test_who_holds_arrays_is_told_with_the_way_to_them():
+    kept = {"a": [np.zeros(1 << 20, np.uint8)], "b": np.zeros(1 << 21, np.uint8)[1:], "c": bytes(1 << 20)}
+    told = holders([[("first", kept["a"])], [("second", kept)]])
+    assert told["total"] == 4
+    assert sorted(told["top"]) == [
+        ["first > ndarray", 1.0, 1],
+        ["second > bytes", 1.0, 1],
+        ["second > ndarray > ndarray", 2.0, 1],
+    ]
