@@ -1,5 +1,5 @@
-"""Draws matched.png: examples, their matches by histograms as Heeger & Bergen 1995 has them and with objects, mixtures
-and solid textures.
+"""Draws matched.png: examples, their matches by histograms as Heeger & Bergen 1995 has them, with objects and of large
+pieces, mixtures and solid textures.
 
 python palettes/pictures/make_matched.py
 
@@ -107,8 +107,8 @@ def main() -> None:
     found = examples()
     flat = [matching.analysed(example, Shape()) for example in found.values()]
     width = len(flat) * (SIDE + GAP) - GAP
-    things = [structured([example], "objects") for example in found.values()]
-    textures = [list(found.values()), [grown(one) for one in flat], things, mixtures(found)]
+    laid = [[structured([example], structure) for example in found.values()] for structure in ("objects", "pieces")]
+    textures = [list(found.values()), [grown(one) for one in flat], *laid, mixtures(found)]
     rows = [row([coloured(one) for one in line], width) for line in textures]
     with ThreadPoolExecutor() as threads:
         rows.append(row([shown(voxels(found[name], threads)) for name in SOLIDS], width))
