@@ -62,13 +62,13 @@ class Drawing:
             if ants is not None and rim is not None:
                 self._line.draw(ants, rim, desk.view, desk.insets, desk.scale)
             self._overlay.draw(data)
-            self._send()
+            self._send(desk)
         return plan.moving
 
-    def _send(self) -> None:
+    def _send(self, desk: Desk) -> None:
         """Puts what was drawn on the screen, in its colours."""
         if self._table is not None:
-            self._colours.draw(self._table, self._screen.ctx.screen)
+            self._colours.draw(self._table, self._screen.ctx.screen, (desk.view.width, desk.view.height))
         glfw.swap_buffers(self._window)
 
     def _land_drawn(self, desk: Desk, now: float, fresh: Set[int], exposed: bool) -> bool:
@@ -86,7 +86,7 @@ class Drawing:
             self._overlay.redraw(data)
             self._land.show(desk)
             self._overlay.draw(data)
-            self._send()
+            self._send(desk)
         return self._land.moving
 
     def _seen(self, desk: Desk, now: float, sheets: SheetPlan | None) -> ScreenPlan:

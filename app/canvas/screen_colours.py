@@ -17,30 +17,43 @@ class ScreenColours:
         self._sources = shader_source("light.vert"), shader_source("screen.frag")
         self._program: moderngl.Program | None = None
         self._picture: moderngl.Texture | None = None
+        self._memory: moderngl.Buffer | None = None  # by which it is copied, where it cannot be copied at once
         self._colours: moderngl.Texture3D | None = None
         self._held: ScreenTable | None = None
 
-    def draw(self, table: ScreenTable, target: moderngl.Framebuffer) -> None:
-        """Gives all that is drawn there the colours of a table."""
+    def draw(self, table: ScreenTable, target: moderngl.Framebuffer, size: tuple[int, int]) -> None:
+        """Gives all that is drawn there, in so many pixels, the colours of a table."""
         if self._program is None:
             self._begin()
         assert self._program is not None
         if table is not self._held:
             self._take(table)
-        if self._picture is None or self._picture.size != target.size:
-            if self._picture is not None:
-                self._picture.release()
-            self._picture = self._ctx.texture(target.size, 3, alignment=1)
-            self._picture.filter = moderngl.NEAREST, moderngl.NEAREST
         assert self._colours is not None
-        self._ctx.copy_framebuffer(self._picture, target)
+        picture = self._copied(target, size)
         target.use()
-        self._ctx.scissor, self._ctx.viewport = None, (0, 0, *target.size)
+        self._ctx.scissor, self._ctx.viewport = None, (0, 0, *size)
         self._ctx.disable(moderngl.BLEND)
-        self._picture.use(0)
+        picture.use(0)
         self._places.use(1)
         self._colours.use(2)
         self._triangle.render(moderngl.TRIANGLES, vertices=3)
+
+    def _copied(self, target: moderngl.Framebuffer, size: tuple[int, int]) -> moderngl.Texture:
+        """Returns what is drawn there.  That of a window goes on telling the size that the window had at first, and no
+        more is copied of it; more is read, into memory of the card."""
+        if self._picture is None or self._picture.size != size:
+            for held in (self._picture, self._memory):
+                if held is not None:
+                    held.release()
+            self._picture, self._memory = self._ctx.texture(size, 3, alignment=1), None
+            self._picture.filter = moderngl.NEAREST, moderngl.NEAREST
+        if target.size == size:
+            self._ctx.copy_framebuffer(self._picture, target)
+            return self._picture
+        self._memory = self._memory or self._ctx.buffer(reserve=3 * size[0] * size[1])
+        target.read_into(self._memory, (0, 0, *size), 3, alignment=1)
+        self._picture.write(self._memory, alignment=1)
+        return self._picture
 
     def _begin(self) -> None:
         self._program = program = self._ctx.program(*self._sources)

@@ -1,6 +1,7 @@
 """The window in the colours of the screen's profile: what the card sends is what the table says."""
 
 import ctypes as ct
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -26,14 +27,16 @@ def swapped():
     return ScreenTable(np.ascontiguousarray(colours[..., ::-1]), "Swapped")
 
 
-@pytest.mark.parametrize("size", [(64, 48), (31, 17)])
-def test_the_card_sends_what_the_table_says(context, size):
+@pytest.mark.parametrize(("size", "told"), [((64, 48), (64, 48)), ((31, 17), (31, 17)), ((31, 17), (8, 8))])
+def test_the_card_sends_what_the_table_says(context, size, told):
+    """Also in a window that tells the size that it had at first."""
     pixels = RNG.integers(0, 256, (size[1], size[0], 3), np.uint8)
     colours = ScreenColours(context)
     for table, expected in ((screen_table(profile_of(SRGB, "a")), pixels), (swapped(), pixels[..., ::-1])):
         texture = context.texture(size, 3, pixels.tobytes(), alignment=1)
         target = context.framebuffer([texture])
-        colours.draw(table, target)
+        window = SimpleNamespace(size=told, use=target.use, read_into=target.read_into)
+        colours.draw(table, target if told == size else window, size)
         found = np.frombuffer(target.read(alignment=1), np.uint8).reshape(pixels.shape)
         assert np.array_equal(found, expected)
 
