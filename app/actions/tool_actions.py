@@ -11,7 +11,7 @@ from app.desk.filling.fill_state import all_gone_round, unbounded
 from app.desk.holding.desk_record import MOST_FAVOURITES
 from app.desk.holding.favourites import has_favourite, take_favourite
 from app.desk.moving.floating import let_go
-from app.desk.sharing.preset_work import restore
+from app.desk.sharing.preset_work import undelete
 from engine.studio.requests import Do
 
 
@@ -117,7 +117,7 @@ TOOL_ACTIONS: dict[str, A] = {
     "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), always, _is("turn")),
     **{f"draw_{name}": _drawing(f"draw_{name}", *row) for name, row in _SHAPES.items()},
     "restore_brush": A(
-        "Undo the deletion", "Tools", (), "Bring back the brush that was deleted last", restore, _is_deleted
+        "Undo the deletion", "Tools", (), "Bring back the brush that was deleted last", undelete, _is_deleted
     ),
     "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.hand.resize(1 / 1.15)),
     "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.hand.resize(1.15)),

@@ -9,7 +9,7 @@ import numpy as np
 from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
 from engine.brush.print_form import TwoInts
 from engine.numeric.address import TILE
-from engine.numeric.kernel import Array, inner, inner_uncounted, kernel
+from engine.numeric.kernel import Array, inlined, inner, inner_uncounted, kernel
 
 _ZERO, _ONE, _TWO, _THREE = np.float32(0.0), np.float32(1.0), np.float32(2.0), np.float32(3.0)
 _HALF = np.float32(0.5)
@@ -19,22 +19,17 @@ _LANES = 16  # pixels of a row that are worked on together
 
 
 @inner_uncounted
-def _locate_row(shares: Array, span: TwoInts, middle: TwoReals, place: Array, places: Array, y: int) -> None:
-    """Writes where textures lie, in a span of row y, where at least half of what is there is the dab's; `middle`: its
-    own, across, and how far above the row."""
-    share, across, down = (
-        shares[span[0] : span[1]],
-        places[0, y, span[0] : span[1]],
-        places[1, y, span[0] : span[1]],
-    )
-    dy = middle[1]
+def _locate_row(share: Array, first: int, middle: TwoReals, place: Array, across: Array, down: Array) -> None:
+    """Writes where textures lie, across and down, where at least half of what is there is the dab's: in the pixels of
+    a row from the `first` on; `middle`: the dab's own, across, and how far above the row."""
+    cx, dy = middle
     xx, xy, x = place[0], place[1] * dy, place[4]
-    yx, yy, y_ = place[2], place[3] * dy, place[5]
+    yx, yy, y = place[2], place[3] * dy, place[5]
     for i in range(share.shape[0]):
-        dx = (span[0] + i) + 0.5 - middle[0]
+        dx = (first + i) + 0.5 - cx
         most = share[i] >= _HALF
         across[i] = np.float32(xx * dx + xy + x) if most else across[i]
-        down[i] = np.float32(yx * dx + yy + y_) if most else down[i]
+        down[i] = np.float32(yx * dx + yy + y) if most else down[i]
 
 
 @inner
@@ -54,7 +49,10 @@ def blend(planes: tuple[Array, Array, Array, Array], disc: Array, left: int, top
             for x in range(first, last):
                 t[x] += (value - t[x]) * k[x]
         if places.shape[0]:
-            _locate_row(k, (first, last), (cx, y + 0.5 - cy), disc[own - 6 : own], places, y)
+            at = cx, y + 0.5 - cy
+            _locate_row(
+                k[first:last], first, at, disc[own - 6 : own], places[0, y, first:last], places[1, y, first:last]
+            )
         for x in range(first, last):
             k[x] = _ZERO
 
@@ -65,7 +63,7 @@ def blend_one(planes: tuple[Array, Array, Array, Array], disc: Array, left: int,
     blend(planes, disc, left, top)
 
 
-@inner_uncounted
+@inlined
 def _lay_row(
     m: Array, across: Array, share: Array, inside: TwoInts, down: np.float32, most: np.float32, rate: np.float32
 ) -> None:
@@ -79,7 +77,7 @@ def _lay_row(
         share[i] = min(most * part / max(max(m[i], most * part), _FAINT), _ONE)
 
 
-@inner_uncounted
+@inlined
 def _blend_row(t: Array, share: Array, value: np.float32) -> None:
     for i in range(t.shape[0]):
         t[i] += (value - t[i]) * share[i]
@@ -107,7 +105,8 @@ def _lay_one(
         for c in range(tints.shape[0]):
             _blend_row(tints[c, y, a:b], share[a:b], np.float32(disc[own + c]))
         if places.shape[0]:
-            _locate_row(share, (first, last), (cx, y + 0.5 - cy), disc[own - 6 : own], places, y)
+            mean, place, middle = share[first:last], disc[own - 6 : own], (cx, y + 0.5 - cy)
+            _locate_row(mean, first, middle, place, places[0, y, first:last], places[1, y, first:last])
 
 
 @kernel

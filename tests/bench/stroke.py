@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -72,26 +73,29 @@ def _cases() -> Iterator[Case]:
             yield Case(name, radius, moving, _OVER, goal, 0.0 if name == "erase" else SMUDGE)
 
 
-def _felt() -> Iterator[Case]:
-    """Tips, what follows chance, and textures along the stroke, over paint."""
+def _felt() -> Iterator[tuple[Case, Case]]:
+    """Tips, what follows chance, and textures along the stroke, over paint, each with the row of its kind: the same
+    texture fixed to the canvas, or one colour.  Radius, spacing, points and dabs, 1,100, are the same."""
     rock = {"texture": "rock", "amount": 0.8}
-    rows: dict[str, dict[str, object]] = {
-        "slender": {"shape": {"ratio": 0.3, "angle": 30}},
-        "hue by dab": {"dynamics": {"hue": {"random_dab": [[0, 0.9], [1, 1.1]]}, "opacity": "pressure"}},
-        "rock along the stroke": {"ink": [rock], "fixed": "stroke"},
-        "dry along the stroke": {"density": rock, "fixed": "stroke"},
+    plain: dict[str, object] = {}
+    rows: dict[str, tuple[dict[str, object], dict[str, object]]] = {
+        "slender": ({"shape": {"ratio": 0.3, "angle": 30}}, plain),
+        "hue by dab": ({"dynamics": {"hue": {"random_dab": [[0, 0.9], [1, 1.1]]}, "opacity": "pressure"}}, plain),
+        "rock along the stroke": ({"ink": [rock], "fixed": "stroke"}, {"ink": [rock]}),
+        "dry along the stroke": ({"density": rock, "fixed": "stroke"}, {"density": rock}),
     }
-    for name, members in rows.items():
-        yield Case(
-            name, 32.0, from_json({"hardness": HARDNESS, "spacing": SPACING, "radius": 32, **members}), _OVER, 1.0
-        )
+    for name, told in rows.items():
+        made, kind = (from_json({"hardness": HARDNESS, "spacing": SPACING, "radius": 32, **one}) for one in told)
+        yield Case(name, 32.0, made, _OVER, 1.0), Case("its kind", 32.0, kind, _OVER, 1.0)
 
 
 def measure(small: bool = False) -> Iterator[Figure]:
     repeats, points = (1, curve(20)) if small else (REPEATS, curve(POINTS))
     slow = 1.0 if libmypaint.library() else slowness()
-    for case in (*_cases(), *_felt()):
+    for case in _cases():
         yield _figure(case, points, repeats, slow)
+    for case, kind in _felt():
+        yield _by_kind(case, kind, points, repeats)
 
 
 def _figure(case: Case, points: np.ndarray, repeats: int, slow: float) -> Figure:
@@ -111,6 +115,19 @@ def _figure(case: Case, points: np.ndarray, repeats: int, slow: float) -> Figure
     name = f"{case.name}, radius {case.radius:.0f}, {case.ground}"
     bound = f"libmypaint's {len(points) / theirs:,.0f}"
     return Figure(name, len(points) / taken, "points/s", bound, theirs / taken, case.goal, True, note)
+
+
+def _by_kind(case: Case, kind: Case, points: np.ndarray, repeats: int) -> Figure:
+    """How fast a stroke is, and how fast the row of its kind, in turns."""
+    grounds = _ground(case.ground, points), _ground(kind.ground, points)
+    times = []
+    for i in range(repeats + 1):  # the first compiles, and touches the memory
+        moved, brushes = points + np.array([1.25 * i, 0.75 * i, 0.0]), (case.brush, kind.brush)
+        times.append([processor(partial(stroke, *one, moved)) for one in zip(grounds, brushes, strict=True)])
+    own, its = (min(column) for column in zip(*times[1:], strict=True))
+    name, bound = f"{case.name}, radius {case.radius:.0f}, {case.ground}", f"its kind's {len(points) / its:,.0f}"
+    note = "the same texture on the canvas, or one colour; same points and dabs, in the same run"
+    return Figure(name, len(points) / own, "points/s", bound, its / own, case.goal, True, note)
 
 
 def curve(count: int) -> np.ndarray:

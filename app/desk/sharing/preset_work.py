@@ -126,7 +126,7 @@ class RestorePreset(FileWork):
         desk.say(f"The brush was not brought back: {fault}", bad=True)
 
 
-def restore(desk: Desk) -> None:
+def undelete(desk: Desk) -> None:
     """Brings back the brush that was deleted last."""
     if desk.asked.deleted is not None:
         desk.asked.deleted()
