@@ -24,7 +24,7 @@ NAMES = list(written_library())
 SHIMMER_EXACT, SHIMMER, FROM_FAR = (
     1.0,
     3.0,
-    8.5,
+    4.0,
 )  # of 255, rms: exactly filtered, other levels, those with many repeats a pixel
 DEFINED = {"do": "texture", "name": "wall", "maker": "expression"}
 

@@ -21,7 +21,15 @@ from engine.texture.expression.naming.elsewhere import Elsewhere, unit_of
 from engine.texture.expression.placing.placed_scene import drawn_plainly
 from engine.texture.expression.programs import Program, draw_pixels, program
 from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
-from engine.texture.expression.sampling.far_fit import FITTED_BELOW, fit_to_near, near_level, shown_at_places
+from engine.texture.expression.sampling.far_fit import (
+    CROWDED_BELOW,
+    FAR_COST,
+    FAR_SIDE,
+    FITTED_BELOW,
+    fit_to_near,
+    near_level,
+    shown_at_places,
+)
 from engine.texture.expression.sampling.sample_trial import measured_side, samples_of
 from engine.texture.expression.weaving import Setting, Woven
 from engine.texture.expression.written import FELT, OWN_RIM, OWN_WAY, PRESSURE, STROKE_WAYS, USUAL_STAGES
@@ -192,11 +200,21 @@ def woven_program(
     """Returns the program of a line of a text: what it is for the samples that it asks for."""
     about = (text, values, named, seed, finer, period, line)
     woven, many = woven_line(*about), pixels(period, max(finer, _COARSEST))
-    found = _enough(woven, about, many)
+    found = _from_afar(_enough(woven, about, many), about, many)
     if woven.whole is not None or named or many >= FITTED_BELOW or not (woven.rough or woven.jumps):
         return found
     far = shown_at_places(lambda columns, rows: draw_pixels(found, columns, rows, many), many)
     return replace(found, fit=fit_to_near(far, _from_near(text, values, seed, period, line)))
+
+
+def _from_afar(found: Program, about: _About, many: Fraction) -> Program:
+    """Returns the program with more samples where each pixel holds so much that some of its own have sixteen, if that
+    is not too dear."""
+    most = found.side if found.finer is None else found.most
+    if many >= CROWDED_BELOW or most < JUMP_SIDE or found.takes:
+        return found
+    made = _sampled(*about, FAR_SIDE)
+    return made if made.cost <= FAR_COST else found
 
 
 def _enough(woven: Woven, about: _About, many: Fraction) -> Program:

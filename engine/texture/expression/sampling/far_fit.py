@@ -16,6 +16,8 @@ from functools import lru_cache
 import numpy as np
 
 FITTED_BELOW, FITTED_TO = 16, 64  # pixels a period: below which pixels are fitted, and from which on to what
+CROWDED_BELOW, FAR_SIDE = 8, 8  # pixels a period, below which those with edges take so many samples each way,
+FAR_COST = 90_000.0  # where these are no more nanoseconds a pixel, about
 _PLACES, _ACROSS = 2048, 16.0  # how many, within how many periods each way
 _UNIT = 1 << 14
 _TURNS = (0.7548776662466927, 0.5698402909980532)  # as in `sample_trial`
