@@ -77,10 +77,12 @@ def test_a_text_names_what_the_painting_has(room):
 
 
 def test_a_text_is_seen_at_a_pressure_and_a_distance_from_the_rim(room):
-    scene = room.scene("a = pressure\na*rim", felt=(0.5, 0.4))
+    scene = room.scene("a = pressure\na*rim", felt=(0.5, 0.4, 0.0))
     assert scene.felt == ("pressure", "rim")
     assert [line.least for line in scene.lines] == [pytest.approx(0.5), pytest.approx(0.2)]
+    assert room.scene("direction/tau", felt=(1.0, 1.0, 90.0)).lines[-1].most == pytest.approx(0.25)
     assert room.scene("a = 0.3\na*x").felt == ()
+    assert room.scene("pressure*rim*direction").mistake is not None
 
 
 def test_the_first_picture_comes_before_all_else(room):

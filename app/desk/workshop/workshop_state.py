@@ -36,6 +36,7 @@ class TextTold(NamedTuple):
 
 
 USUALLY = TextTold()
+NOT_FELT = 1.0, 1.0, 0.0  # full pressure, far from the rim, to the right
 
 
 @dataclass(slots=True)
@@ -54,7 +55,7 @@ class WorkshopState:
     size: tuple[int, int] = (256, 256)
     lit: bool = False
     stages: int = USUAL_STAGES  # for how many pressures, and distances from the rim, strokes have it
-    felt: tuple[float, float] = (1.0, 1.0)  # the pressure, and the distance, of what is looked at
+    felt: tuple[float, float, float] = NOT_FELT  # the pressure, distance and direction of what is looked at
     put: bool = False
     nodes: bool = False  # whether the text is shown as nodes
     over: tuple[int, int] | None = None
@@ -76,7 +77,7 @@ class WorkshopState:
 
     @property
     def stages_most(self) -> int:
-        """Gives for how many there may be: fewer where the text looks at both."""
+        """Gives for how many there may be: fewer where the text looks at more than one."""
         return STAGES_MOST if len(self.scene.felt) < 2 else USUAL_STAGES
 
     @property
@@ -102,7 +103,7 @@ class WorkshopState:
     def take(self, text: str, name: str = "", told: TextTold = USUALLY) -> None:
         """Takes another text into the editor, which can be undone there."""
         self.text, self.name, (self.values, self.period, self.stages) = text, name, told
-        self.line, self.put, self.felt = -1, True, (1.0, 1.0)
+        self.line, self.put, self.felt = -1, True, NOT_FELT
         self.look(0, (0, 0))
 
     def edit(self, text: str) -> None:

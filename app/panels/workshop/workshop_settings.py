@@ -13,11 +13,27 @@ from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.controls.colour_popup import colour_popup
 from engine.studio.workshop.workshop_records import Setting
-from engine.texture.expression.written import OWN_RIM, PRESSURE, STAGES_LEAST, samples_told
+from engine.texture.expression.written import (
+    FELT,
+    FULL_TURN,
+    OWN_RIM,
+    OWN_WAY,
+    PRESSURE,
+    STAGES_LEAST,
+    STROKE_WAYS,
+    samples_told,
+)
 
+_WAY = FULL_TURN / STROKE_WAYS
 _SEEN = {
-    PRESSURE: ("At pressure", "How hard the pen pressed in this picture: a stroke has its own pressure"),
-    OWN_RIM: ("From the rim", "How far within its stroke's rim this picture lies, 1 a radius or more"),
+    PRESSURE: ("At pressure", "How hard the pen pressed in this picture: a stroke has its own pressure", 1.0, 0.01),
+    OWN_RIM: ("From the rim", "How far within its stroke's rim this picture lies, 1 a radius or more", 1.0, 0.01),
+    OWN_WAY: (
+        "Running",
+        "Which way the stroke runs in this picture, clockwise from rightwards",
+        FULL_TURN - _WAY,
+        _WAY,
+    ),
 }
 _TONES = ((0.86, 0.36, 0.32), (0.36, 0.72, 0.36), (0.36, 0.52, 0.90))
 
@@ -41,16 +57,17 @@ def draw_settings(desk: Desk) -> None:
 
 def _felt(state: WorkshopState) -> None:
     """Draws for how many pressures, and distances from the rim, there are textures, and which is looked at."""
-    most = float(state.stages_most)
     hint = "For how many pressures, or distances from the rim, a stroke has textures: what lies between is mixed"
-    changed, value = w.slider("Stages", float(state.staged), (float(STAGES_LEAST), most), hint, form="%.0f")
-    state.stages = round(value) if changed else state.stages
-    felt = dict(zip(_SEEN, state.felt, strict=True))
+    if state.scene.felt != (OWN_WAY,):
+        most = float(state.stages_most)
+        changed, value = w.slider("Stages", float(state.staged), (float(STAGES_LEAST), most), hint, form="%.0f")
+        state.stages = round(value) if changed else state.stages
+    felt = dict(zip(FELT, state.felt, strict=True))
     for name in state.scene.felt:
-        label, hint = _SEEN[name]
-        changed, value = w.slider(label, felt[name], (0.0, 1.0), hint)
-        felt[name] = round(value, 3) if changed else felt[name]
-    state.felt = felt[PRESSURE], felt[OWN_RIM]
+        label, hint, most, step = _SEEN[name]
+        changed, value = w.slider(label, felt[name], (0.0, most), hint, form="%.2f" if most == 1.0 else "%.0f°")
+        felt[name] = round(value / step) * step if changed else felt[name]
+    state.felt = felt[PRESSURE], felt[OWN_RIM], felt[OWN_WAY]
 
 
 def _setting(desk: Desk, row: Setting) -> None:

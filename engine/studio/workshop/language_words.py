@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from engine.makers.namesakes import bundled_inks, bundled_pictures
+from engine.makers.namesakes import texture_names
 from engine.studio.workshop.workshop_records import WorkshopWord, WorkshopWords
 from engine.texture.expression.arithmetic_words import FUNCTIONS_OF_NUMBERS
 from engine.texture.expression.language import FUNCTIONS
-from engine.texture.expression.library.bundled_texts import written_library
 from engine.texture.expression.written import PICK, PLACE_NAMES, SLIDER
-from engine.texture.table import KINDS
 
 _SETTERS = (
     WorkshopWord(SLIDER, "slider(usual, least, most)", "a number that whoever uses the texture may set"),
     WorkshopWord(PICK, "pick(#rrggbb)", "a colour that whoever uses the texture may set"),
 )
-_INK, _PICTURE = "the ink of a brush", "the picture of an example"
 
 
 def language_words() -> WorkshopWords:
@@ -24,11 +21,5 @@ def language_words() -> WorkshopWords:
         form, _, about = row[3].partition(": ")
         rows.append(WorkshopWord(name, form, about))
     names = tuple(WorkshopWord(name, name, about) for name, about in PLACE_NAMES.items())
-    return WorkshopWords((*rows, *_SETTERS), names, _textures())
-
-
-def _textures() -> tuple[WorkshopWord, ...]:
-    kinds = {kind.name: kind.tooltip for kind in KINDS.values() if kind.parameters and not kind.pictured}
-    written = {name: text.about for name, text in written_library().items()}
-    found = dict.fromkeys(bundled_pictures(), _PICTURE) | dict.fromkeys(bundled_inks(), _INK) | kinds | written
-    return tuple(WorkshopWord(name, f'"{name}"(x, y)', found[name]) for name in sorted(found))
+    textures = tuple(WorkshopWord(name, f'"{name}"(x, y)', about) for name, about in texture_names({}))
+    return WorkshopWords((*rows, *_SETTERS), names, textures)

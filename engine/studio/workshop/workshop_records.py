@@ -18,8 +18,8 @@ Setting = tuple[
 class WorkshopSet:
     """A text, and the values of its sliders, those that fit; `period`: pixels of level 0 that it calls 1.  `line`: the
     one that is looked at, counted from 0, -1 for the texture; over `size` (width, height) pixels of a `level` from
-    `origin` on; `lit`: as heights in the light; `felt`: where the pen pressed so much, and so far within the rim, 0
-    to 1 each.  The newest counts."""
+    `origin` on; `lit`: as heights in the light; `felt`: where the pen pressed so much, so far within the rim, 0 to
+    1 each, and where the stroke runs so, in degrees.  The newest counts."""
 
     text: str
     values: Map[str, float | str] = Map()  # noqa: RUF009  # it never changes
@@ -29,7 +29,7 @@ class WorkshopSet:
     origin: tuple[int, int] = (0, 0)
     size: tuple[int, int] = (256, 256)
     lit: bool = False
-    felt: tuple[float, float] = (1.0, 1.0)
+    felt: tuple[float, float, float] = (1.0, 1.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +80,7 @@ class WorkshopScene:
     `mistake`: then the rest is of the last text that was right; `counts`: how often values are seen, from `least` to
     `most` of what is looked at, red, green, blue, or one for all; `shimmer`: how far the level is from the next finer
     one reduced, rms of 0..255, -1 while that is not known; `drawn`: how many pictures were; `busy`: kernels are made;
-    `felt`: which of PRESSURE and OWN_RIM the text looks at.
+    `felt`: what of FELT the text looks at.
     """
 
     text: str

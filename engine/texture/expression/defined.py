@@ -60,6 +60,7 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
     assert isinstance(seed, int)
     try:
         written = read(text)
+        check_felt(written)
         values = chosen_values(written, parameters.get("values", {}))
         for name in written.felt:  # as values more, which are the stroke's to set
             values = (*values, (FELT[name], _felt(name, parameters)))
@@ -74,8 +75,6 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
     if len(written.felt) > 1 and stages > USUAL_STAGES:
         told = ", ".join(written.felt)
         raise FieldError("stages", described(stages), f"at most {USUAL_STAGES} of a text that goes by {told}")
-    if len(written.felt) == len(FELT):
-        raise FieldError("text", "pressure, rim and direction", "two of them at most")
     return Expression(base, text, float(period), level, seed, values, False, named, stages)
 
 
@@ -101,6 +100,12 @@ def expression_of_key(key: Sequence[object], of_key: Callable[[object], Instance
     told = {"text": key[2], "period": key[3], "level": key[4], "seed": key[5], **felt}
     made = expression({**told, "values": values, "named": named}, base)
     return replace(made, covers=key[0] == "expression-cover")
+
+
+def check_felt(written: WrittenText) -> None:
+    """WrittenError if a text goes by more than strokes have textures for."""
+    if len(written.felt) == len(FELT):
+        raise WrittenError((1, 1), "pressure, rim and direction", "two of them at most")
 
 
 def _felt(name: str, parameters: Mapping[str, object]) -> float:
