@@ -9,6 +9,7 @@ from immutables import Map
 from engine.painting.commands import DefineTexture
 from engine.painting.value import Painting
 from engine.session.session import Session
+from engine.studio.workshop import workshop
 from engine.studio.workshop import workshop_records as wr
 from engine.studio.workshop.workshop import Workshop
 
@@ -96,6 +97,19 @@ def test_the_first_picture_comes_before_all_else(room):
     whole = room.pictures()["workshop texture"].astype(float)
     reduced = whole.reshape(128, 2, 128, 2, 4).mean(axis=(1, 3))
     assert np.abs(reduced - first).mean() < 3.0
+
+
+def test_the_first_picture_of_a_dear_text_is_small(room, monkeypatch):
+    room.scene(WALL)
+    monkeypatch.setattr(workshop, "_SOON", 1e3)
+    room.workshop.handlers[wr.WorkshopSet](wr.WorkshopSet(WALL.rstrip() + "*0.9", size=SIZE))
+    room.sent.clear()
+    while not room.pictures() and room.workshop.pending:
+        room.workshop.step()
+    assert room.pictures()["workshop texture"].shape[:2] == (SIZE[1] // 8, SIZE[0] // 8)
+    while room.workshop.pending:
+        room.workshop.step()
+    assert room.pictures()["workshop texture"].shape[:2] == SIZE[::-1]
 
 
 def test_a_mistake_tells_its_place_and_leaves_what_was_right(room):

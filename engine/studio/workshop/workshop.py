@@ -26,7 +26,8 @@ from engine.texture.expression.language import read
 from engine.texture.expression.written import FELT, Adjustable, WrittenError, WrittenText
 from engine.texture.expression.written_ink import Expression, Named
 
-_FIRST = 128  # pixels of a picture that is shown before it is whole
+_FIRST, _LEAST = 128, 32  # pixels of a picture that is shown before it is whole, at most; at least of a dear one,
+_SOON = 4e7  # nanoseconds that it takes, about, as the text before told
 _LOOKED = (96, 96)  # pixels over which the least and the greatest value of a line are sought
 _SHIMMERS = 64  # pixels square that are compared with the next finer level
 
@@ -99,7 +100,7 @@ class Workshop(Owned):
             raise
         before, self._known = self._known, known
         yield from self._ready()
-        yield from self._picture(known)
+        yield from self._picture(known, _cost_before(before, known.number))
         if before is None or not _alike(before, asked):
             yield from self._lines(known)
             yield from self._levels(known)
@@ -135,14 +136,15 @@ class Workshop(Owned):
     def _send(self, name: str, pixels: np.ndarray) -> None:
         self._easel.send(results.Picture(f"workshop {name}", results.frozen(np.ascontiguousarray(pixels))))
 
-    def _picture(self, known: _Known) -> Iterator[None]:
-        """Shows what is looked at; a large picture first from a coarser level."""
+    def _picture(self, known: _Known, expected: float) -> Iterator[None]:
+        """Shows what is looked at; a large picture, or a dear one, first from a coarser level.  `expected`: nanoseconds
+        a pixel."""
         asked, number = known.asked, known.number
         whole = Rect.at(*asked.origin, *asked.size)
         coarser = 0
-        while max(whole.zoomed(-coarser).width, whole.zoomed(-coarser).height) > _FIRST:
+        while _is_much(whole.zoomed(-coarser), expected):
             coarser += 1
-        for level in (coarser, 0) if coarser else (0,):
+        for level in sorted({coarser, min(coarser // 2, 1), 0}, reverse=True):
             rect = whole.zoomed(-level)
             rim = int(asked.lit)
             rimmed = Rect(rect.x0 - rim, rect.y0 - rim, rect.x1 + rim, rect.y1 + rim)
@@ -228,6 +230,18 @@ def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
     if before is not None and before.asked.text == asked.text and len(before.scene.lines) == len(lines):
         scene = replace(scene, counts=before.scene.counts, least=before.scene.least, most=before.scene.most)
     return _Known(asked, made, scene)
+
+
+def _cost_before(before: _Known | None, number: int) -> float:
+    """Returns what a line of the text before took, nanoseconds a pixel: what the same one of the next takes, about."""
+    lines = before.scene.lines if before is not None else ()
+    return lines[min(number, len(lines) - 1)].cost if lines else 0.0
+
+
+def _is_much(rect: Rect, cost: float) -> bool:
+    """Tells whether something is too much for a first picture."""
+    side = max(rect.width, rect.height)
+    return side > _FIRST or (side > _LEAST and rect.width * rect.height * cost > _SOON)
 
 
 def _alike(known: _Known, asked: wr.WorkshopSet) -> bool:
