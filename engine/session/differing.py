@@ -15,7 +15,7 @@ from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.rising.paged_level import PagedLevel, TilePlace, page_of
 from engine.canvas.store import RECORD_OVERHEAD, Change, Level, Pyramid, Record, changed_rects, changes_between
 from engine.numeric.address import Rect, TileKey
-from engine.session.held_pyramids import Sheet, changed_nodes, pyramids_of, related
+from engine.session.held_pyramids import Sheet, changed_nodes, pyramids, pyramids_of, related
 from engine.texture.example.tiles import TilePlanes
 from engine.texture.sparse_planes import SparsePlanes
 
@@ -159,6 +159,19 @@ def apart_records(far: Group, near: Group) -> Iterator[OnlyHere]:
         if other is None or other.uid != pyramid.uid:
             yield from ((key, record, None) for key, record in pyramid.all_records())
     yield from _changed_records(here, there)
+
+
+def placed_records(far: Group, near: Group) -> Iterator[tuple[Record, Record | None]]:
+    """Yields records in memory of one state of the layers, whatever lies between it and another, and those that the
+    other has in their places: all that differ, and some that do not."""
+    there = pyramids(near)
+    for sheet, pyramid in pyramids(far).items():
+        other = there.get(sheet)
+        for level, stored in pyramid.levels.items():
+            beside = _NOTHING if other is None else other.levels.get(level, _NOTHING)
+            if stored is not beside:
+                found = _all_in_memory(stored, [beside])
+                yield from ((record, _in_memory(beside, place)) for place, record in found)
 
 
 def apart_tiles(far: Group, near: Group) -> set[TilePlanes]:

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import starmap, takewhile
 
 import numpy as np
 
@@ -16,9 +17,10 @@ from engine.canvas import growth as growths
 from engine.canvas.layers import Group, layers
 from engine.canvas.rising.paged_level import PagedLevel
 from engine.canvas.store import Pyramid, Record
-from engine.session.coding.coded_records import CodedData, encode, put_away
+from engine.session.coding.coded_records import CodedData, encode, links_of, put_away
 from engine.session.coding.coded_tiles import CodedTile, encode_tile
 from engine.session.coding.paged_records import put_page_away
+from engine.session.differing import placed_records
 from engine.session.held_pyramids import pyramids
 from engine.texture.even_planes import EvenPlanes
 from engine.texture.sparse_planes import SparsePlanes
@@ -34,10 +36,10 @@ _GROWN = 32 << 20  # bytes that the process grows by before all are looked throu
 class Paging:
     """Frees bytes of the records of a painting.  It belongs to the session's thread.
 
-    First records of levels that have many go to disk, by pages, as far as they were stored long ago, and what a file
-    brought.  Then it codes what was stored long ago, of the levels farthest from the one that is seen; then what was
-    stored of late; then what is coded goes to disk; at last what was painted with examples is coded, and goes there.
-    `wanted`: bytes that are still to be freed.
+    First what older states have alone that are kept aside is coded and goes to disk; then records of levels that have
+    many, by pages, as far as they were stored long ago, and what a file brought.  Then it codes what was stored long
+    ago, of the levels farthest from the one that is seen; then what was stored of late; then what is coded goes to
+    disk; at last what was painted with examples is coded, and goes there.  `wanted`: bytes that are still to be freed.
 
     All records of one state of the painting are looked through before those of another are, and then not until the
     process has grown: where nearly all is small already, each look finds little.
@@ -49,12 +51,13 @@ class Paging:
         self._found: Iterator[int] | None = None  # what those free that are not yet; None where all were
         self._left = 0  # bytes that were wanted still when all were, or fewer since
 
-    def want(self, root: Group, level: int | None, size: int) -> None:
-        """Tells what is to be freed of the layers `root`; `level`: that is seen, None for none."""
+    def want(self, root: Group, level: int | None, size: int, aside: Iterable[Group] = ()) -> None:
+        """Tells what is to be freed of the layers `root`; `level`: that is seen, None for none; `aside`: of states that
+        are kept, too."""
         self.wanted, self._left = size, min(self._left, size)
         grown = size > self._left + (_GROWN if self._left else 0)
         if self._found is None and root is not self._root and grown:
-            self._root, self._found = root, _freed(root, level)
+            self._root, self._found = root, _freed(root, level, tuple(aside))
 
     def step(self, size: int = _AT_ONCE, seconds: float = math.inf) -> None:
         """Frees as many bytes, or all that are wanted, or all that there are; or looks at so many records, or for so
@@ -73,8 +76,10 @@ class Paging:
             self.wanted = max(self.wanted - freed, 0)
 
 
-def _freed(root: Group, level: int | None) -> Iterator[int]:
+def _freed(root: Group, level: int | None, aside: Sequence[Group]) -> Iterator[int]:
     """Makes one record after the other smaller; yields the bytes that were freed."""
+    for state in aside:
+        yield from starmap(_put_aside, placed_records(state, root))
     held = pyramids(root).values()
     for pyramid in held:
         for k in _farthest_first(pyramid, level):
@@ -95,6 +100,15 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
     yield from map(encode_tile, grown)
     for tile in grown:
         yield put_away(tile.held) if isinstance(tile.held, CodedTile) else 0
+
+
+def _put_aside(record: Record, live: Record | None) -> int:
+    """Makes a record smaller, and all those of which it is made, but for the one that is in its place now."""
+    freed = 0
+    for one in takewhile(lambda one: one is not live, links_of(record)):
+        freed += encode(one, None) if _is_worth(one) else 0
+        freed += put_away(one.held) if one.there and isinstance(one.held, CodedData) else 0
+    return freed
 
 
 def _old_until(pyramid: Pyramid) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Iterable
 
 from engine import spare_memory
 from engine.canvas.layers import Group
@@ -54,6 +55,7 @@ class Room(Owned):
         self._settled = 0  # bytes resident then, or fewer since
         self._sparing = False  # whether pages of large arrays go back as soon as they are freed
         self._grown = False  # whether it is time for that again
+        self.aside: Callable[[], Iterable[Group]] = tuple  # older states of the layers that somebody keeps
 
     def keep_within(self, root: Group) -> None:
         """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
@@ -87,7 +89,7 @@ class Room(Owned):
             cache.shrink(max(cache.held - over, memory.cache_share() // 4, SMALLEST_CACHE))
             memory.give_back()
             over = memory.resident() - most
-        self._paging.want(root, cache.level, max(over, 0))
+        self._paging.want(root, cache.level, max(over, 0), self.aside())
         return over
 
     def _page(self, crowded: bool) -> None:

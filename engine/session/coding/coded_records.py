@@ -154,7 +154,7 @@ class Ways:
 
     def lead(self, record: Record, other: Record) -> bool:
         """Tells whether a record may be made of another one, and notes that it is from now on."""
-        ahead = list(_way(other)) if isinstance(other.held, CodedData) else [other]
+        ahead = list(links_of(other)) if isinstance(other.held, CodedData) else [other]
         behind = self._behind.get(record, 0)
         if record in ahead or behind + len(ahead) > WAY - 1:
             return False
@@ -323,10 +323,10 @@ def _predicted(
 
 def leads_to(other: Record, record: Record) -> bool:
     """Tells whether another record's data are made from this one's."""
-    return record in _way(other)
+    return record in links_of(other)
 
 
-def _way(record: Record) -> Iterator[Record]:
+def links_of(record: Record) -> Iterator[Record]:
     """Yields a record and those of which it is made, one by the next."""
     here: Record | None = record
     while here is not None:

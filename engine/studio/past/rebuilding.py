@@ -9,6 +9,7 @@ import time
 from collections.abc import Sequence
 from itertools import pairwise
 
+from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
 from engine.painting import commands as c
@@ -22,7 +23,8 @@ from engine.session.session import Session
 
 STEPS_APART, SECONDS_APART = 200, 3.0
 PLAYED_AT_ONCE = 0.02  # seconds of playing at a time
-_CACHE_BYTES = 64 << 20  # of tiles evaluated while commands are played anew, at most
+_CACHE_BYTES = 64 << 20  # of tiles evaluated while commands are played anew, at most,
+_CACHE_PART = 8  # and of what those on the screen may take
 
 
 class KeptStates:
@@ -45,6 +47,10 @@ class KeptStates:
             self._only(sorted(self._states))  # the history may have coded much of them
         if self.held > self._most:
             self._only([0, *sorted(self._states)[2::2]])  # every other one
+
+    def roots(self) -> list[Group]:
+        """Returns the layers of all that are kept."""
+        return [painting.root for painting in self._states.values()]
 
     def nearest(self, log: Sequence[c.Command], count: int, least: int | None = None) -> tuple[int, Painting]:
         """Returns the latest state from which the first `count` commands can be played on, and how many led to it: at
@@ -79,7 +85,7 @@ class Rebuilding:
         reach = undo_reach(self._log[self.at : count], STEPS)
         history = History(memory.history_share() // 4 if held is None else held, max(reach, 1))
         history.lessens = False  # what is kept of its states stands by itself, and is counted so
-        cache = TileCache(min(_CACHE_BYTES, memory.cache_share()))
+        cache = TileCache(min(_CACHE_BYTES, memory.cache_share() // _CACHE_PART))
         self.session = Session(painting, cache, folder=of.folder, history=history)
         self._steps, self._since = 0, time.monotonic()
 

@@ -2,6 +2,7 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from itertools import starmap
 
 import numpy as np
 import pytest
@@ -23,9 +24,10 @@ from engine.painting.value import Painting
 from engine.session import paging
 from engine.session import room as rooms
 from engine.session.coding import coded_records, paged_records
-from engine.session.coding.coded_records import CodedData
+from engine.session.coding.coded_records import CodedData, links_of
 from engine.session.coding.made_again import made_held
 from engine.session.coding.paged_records import put_page_away
+from engine.session.differing import placed_records
 from engine.session.paging import Paging
 from engine.session.room import Room
 from engine.session.session import Session
@@ -104,6 +106,30 @@ def test_what_is_old_goes_first_and_at_last_to_disk(disk):
     assert contents(session.painting) == before
 
 
+def test_states_kept_aside_go_to_disk_before_anything_of_the_painting(disk):
+    session = begun()
+    for n in range(9):
+        session.do(stroke(n % 3, ink=ROCK if n == 2 else ()))
+    aside, before = session.painting, contents(session.painting)
+    for n in range(9):
+        session.do(stroke(n % 3))
+    here, alone = records(session.painting), contents(session.painting)
+    kept = {one for record in records(aside) for one in links_of(record)}.difference(here)
+    whole = [record for record in kept if isinstance(record.held, np.ndarray) and record.data.nbytes >= 2048]
+    assert whole
+    away, freed = disk.held, list(starmap(paging._put_aside, placed_records(aside.root, session.painting.root)))
+    assert disk.held > away
+    assert sum(freed) > sum(record.data.nbytes for record in whole) // 4
+    assert not any(isinstance(record.held, np.ndarray) for record in whole)
+    assert not any(isinstance(record.held, CodedData) for record in here)
+    pages = Paging()
+    pages.want(session.painting.root, None, 1, [aside.root])
+    pages.step()
+    assert pages.wanted == 0
+    assert contents(aside) == before
+    assert contents(session.painting) == alone
+
+
 def test_a_process_that_takes_too_much_pages_what_is_painted(monkeypatch):
     session = begun()
     for n in range(6):
@@ -175,7 +201,7 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch,
 def test_what_was_looked_through_is_not_again_before_the_process_has_grown(monkeypatch):
     session, pages, looks = begun(), Paging(), []
     freed = paging._freed
-    monkeypatch.setattr(paging, "_freed", lambda root, level: looks.append(root) or freed(root, level))
+    monkeypatch.setattr(paging, "_freed", lambda root, level, aside: looks.append(root) or freed(root, level, aside))
 
     def wants(size):
         pages.want(session.painting.root, None, size)
