@@ -195,8 +195,9 @@ class _Opening:
                 for layer in list(layers.layers(root)):
                     check_cancelled(self._cancelled)
                     shelf = Shelf()
-                    tiles = self._tiles(manifest.packs[layer.id], members, sources, at_once=False)
-                    gathered, apart = Gathered(self._archive.name), list[Coded]()
+                    packs = manifest.packs[layer.id]
+                    tiles = self._tiles(packs, members, sources, at_once=False)
+                    gathered, apart = Gathered(self._archive.name, sum(p.tiles for p in packs)), list[Coded]()
                     for tile in shelved(tiles, shelf):
                         gathered.add(*tile[:2])
                         if not isinstance(tile[1].held, Filed):
@@ -238,8 +239,8 @@ class _Opening:
         """Returns the picture that a layer began with, laid down again."""
         return grounds.restored(found, members.ground(found.member), members.where(found.member), self._limits)
 
-    def _levels(self, tiles: Iterable[Coded]) -> dict[int, Mapping[tuple[int, int], Record]]:
-        return Gathered(self._archive.name, (tile[:2] for tile in tiles)).levels(0)
+    def _levels(self, tiles: Sequence[Coded]) -> dict[int, Mapping[tuple[int, int], Record]]:
+        return Gathered(self._archive.name, len(tiles), (tile[:2] for tile in tiles)).levels(0)
 
     def _picture(self, entry: PictureEntry, members: Members) -> ImageSource:
         parts = [(key, record) for key, record, _ in self._tiles(entry.packs, members, {})]

@@ -92,10 +92,10 @@ class _Gathering:
 
 
 class Gathered:
-    """Tiles as they are read of a file, by their levels.  `name`: the file's."""
+    """Tiles as they are read of a file, by their levels.  `name`: the file's; `count`: how many there will be."""
 
-    def __init__(self, name: str, tiles: Iterable[tuple[TileKey, Record]] = ()) -> None:
-        self._name = name
+    def __init__(self, name: str, count: int, tiles: Iterable[tuple[TileKey, Record]] = ()) -> None:
+        self._name, self._by_pages = name, count >= MANY
         self._filed: dict[int, dict[TilePlace, _Gathering]] = {}
         self._others: dict[int, dict[TilePlace, Record]] = {}
         for key, record in tiles:
@@ -103,11 +103,17 @@ class Gathered:
 
     def add(self, key: TileKey, record: Record) -> None:
         """Takes a tile.  FileError if it is there already."""
-        place, bit, held = (key.x, key.y), bit_of((key.x, key.y)), record.held
-        pages, others = self._filed.setdefault(key.level, {}), self._others.setdefault(key.level, {})
+        place, held = (key.x, key.y), record.held
+        others = self._others.setdefault(key.level, {})
+        if place in others:
+            raise self._twice(key)
+        if not self._by_pages:
+            others[place] = record
+            return
+        pages, bit = self._filed.setdefault(key.level, {}), bit_of(place)
         page = pages.get(page_of(place))
-        if (page is not None and page.bits & bit) or place in others:
-            raise FileError(self._name, f"tile {key.x}, {key.y} of level {key.level} is there twice")
+        if page is not None and page.bits & bit:
+            raise self._twice(key)
         if not isinstance(held, Filed):
             others[place] = record
             return
@@ -117,10 +123,13 @@ class Gathered:
 
     def levels(self, depth: int) -> dict[int, Mapping[TilePlace, Record]]:
         """Returns all of them by level, stored at a depth of the pyramid; by pages where they are many."""
-        return {level: self._level(level, depth) for level in list(self._filed)}
+        return {level: self._level(level, depth) for level in list(self._others)}
+
+    def _twice(self, key: TileKey) -> FileError:
+        return FileError(self._name, f"tile {key.x}, {key.y} of level {key.level} is there twice")
 
     def _level(self, level: int, depth: int) -> Mapping[TilePlace, Record]:
-        pages = {at: page.page(at, depth) for at, page in self._filed.pop(level).items()}
+        pages = {at: page.page(at, depth) for at, page in self._filed.pop(level, {}).items()}
         others = {place: _at_depth(record, depth) for place, record in self._others.pop(level).items()}
         count = sum(page.bits.bit_count() for page in pages.values())
         if count < MANY:

@@ -167,7 +167,7 @@ def test_tiles_of_a_file_are_what_they_were_by_pages_and_none_is_there_twice(pla
     ]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(filed_pages, "MANY", many)
-        gathered = Gathered("a.ora", [tile[:2] for tile in read])
+        gathered = Gathered("a.ora", len(read), [tile[:2] for tile in read])
         for key, record, _ in read:
             with pytest.raises(FileError, match="is there twice"):
                 gathered.add(key, record)
