@@ -32,10 +32,11 @@ from numba.core import caching
 from numba.core.runtime import nrtdynmod
 from numba.core.serialize import dumps
 
+from engine.kernel_sources import read_by, source_of
+
 ENDING = ".kernel"
 _DIGEST = 32  # bytes of a hash at the head of a file
 _PACKAGE = Path(__file__).resolve().parent
-_IMPORTED = re.compile(r"^\s*from (engine[\w.]*) import ([^#\n(]+|\([^)]*\))", re.MULTILINE)
 
 
 class NotCompiled(Exception):
@@ -171,30 +172,10 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]
 def stamp(path: Path) -> str:
     """Returns a hash of a module's source and of those modules of the engine that it imports: their constants and
     inlined functions are part of its kernels."""
-    seen: set[Path] = set()
-    _gather(path.resolve(), seen)
     total = hashlib.sha256()
-    for each in sorted(seen):
-        total.update(_source(each))
+    for each in sorted(read_by([path.resolve()])):
+        total.update(source_of(each))
     return total.hexdigest()[:20]
-
-
-def _gather(path: Path, seen: set[Path]) -> None:
-    if path in seen:
-        return
-    seen.add(path)
-    for module, names in _IMPORTED.findall(_source(path).decode()):
-        whole = _PACKAGE.joinpath(*module.split(".")[1:])
-        listed = [name.split()[0] for name in names.strip("()").split(",") if name.split()]
-        for target in (whole, *(whole / name for name in listed)):
-            file = target.with_suffix(".py")
-            if file.is_file():
-                _gather(file, seen)
-
-
-@cache
-def _source(path: Path) -> bytes:
-    return path.read_bytes()
 
 
 def _runtime(context: Any) -> object:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from engine import kernel_cache
+from engine import kernel_cache, kernel_sources
 
 ROOT = Path(__file__).parents[2]
 TOY = "from numba import njit\n@njit(cache=True)\ndef double(x):\n    return 2 * x\n"
@@ -191,13 +191,13 @@ def test_kernels_that_others_could_write_are_not_read(toy):
 def test_what_a_module_imports_of_the_engine_is_part_of_it(tmp_path, monkeypatch):
     package = tmp_path / "engine"
     (package / "room").mkdir(parents=True)
-    monkeypatch.setattr(kernel_cache, "_PACKAGE", package)
+    monkeypatch.setattr(kernel_sources, "PACKAGE", package)
 
     def stamp(**texts: str) -> str:
         for name, text in texts.items():
             (package / "room" / f"{name}.py").write_text(text)
-        kernel_cache.stamp.cache_clear()
-        kernel_cache._source.cache_clear()
+        for kept in (kernel_cache.stamp, kernel_sources.source_of, kernel_sources._imported):
+            kept.cache_clear()
         return kernel_cache.stamp(package / "room" / "a.py")
 
     first = stamp(
@@ -238,7 +238,7 @@ sys.path[:0] = sys.argv[1:3]
 import engine, numba
 numba.config.reload_config()
 import toy
-from engine import kernel_cache
+from engine import kernel_cache, kernel_sources
 told = []
 try:
     with kernel_cache.refusing():
