@@ -33,7 +33,7 @@ from engine.texture.expression.defined import expression
 from engine.texture.expression.language import read
 from engine.texture.expression.library.bundled_texts import written_library
 from engine.texture.expression.naming.bound import bound_anew
-from engine.texture.expression.written import WrittenError, WrittenText, close_to
+from engine.texture.expression.written import OWN_WAY, WrittenError, WrittenText, close_to
 from engine.texture.expression.written_ink import Expression, woven_line
 from engine.texture.gradient import Gradient
 from engine.texture.image import Image, ImageSource
@@ -156,7 +156,7 @@ def texture_names(textures: Mapping[str, Texture]) -> tuple[tuple[str, str], ...
     found |= dict.fromkeys(bundled_pictures(), "the picture of an example")
     found |= dict.fromkeys(bundled_inks(), "the ink of a brush")
     found |= {row.name: row.tooltip for row in KINDS.values() if row.parameters and not row.pictured}
-    found |= {name: told.about for name, told in written_library().items()}
+    found |= {name: told.about for name, told in written_library().items() if OWN_WAY not in read(told.text).felt}
     return tuple(sorted(found.items()))
 
 
