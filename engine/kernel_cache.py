@@ -32,11 +32,10 @@ from numba.core import caching
 from numba.core.runtime import nrtdynmod
 from numba.core.serialize import dumps
 
-from engine.kernel_sources import read_by, source_of
-
 ENDING = ".kernel"
 _DIGEST = 32  # bytes of a hash at the head of a file
 _PACKAGE = Path(__file__).resolve().parent
+_IMPORTED = re.compile(r"^\s*from (engine[\w.]*) import ([^#\n(]+|\([^)]*\))", re.MULTILINE)
 
 
 class NotCompiled(Exception):
@@ -172,10 +171,36 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]
 def stamp(path: Path) -> str:
     """Returns a hash of a module's source and of those modules of the engine that it imports: their constants and
     inlined functions are part of its kernels."""
+    seen: set[Path] = set()
+    _gather(path.resolve(), seen)
     total = hashlib.sha256()
-    for each in sorted(read_by([path.resolve()])):
-        total.update(source_of(each))
+    for each in sorted(seen):
+        total.update(_source(each))
     return total.hexdigest()[:20]
+
+
+def _gather(path: Path, seen: set[Path]) -> None:
+    if path not in seen:
+        seen.add(path)
+        for other in _imported(path):
+            _gather(other, seen)
+
+
+@cache
+def _imported(path: Path) -> tuple[Path, ...]:
+    """Returns the modules of the engine that one imports."""
+    found: list[Path] = []
+    for module, names in _IMPORTED.findall(_source(path).decode()):
+        whole = _PACKAGE.joinpath(*module.split(".")[1:])
+        listed = [name.split()[0] for name in names.strip("()").split(",") if name.split()]
+        files = (target.with_suffix(".py") for target in (whole, *(whole / name for name in listed)))
+        found += [file for file in files if file.is_file()]
+    return tuple(found)
+
+
+@cache
+def _source(path: Path) -> bytes:
+    return path.read_bytes()
 
 
 def _runtime(context: Any) -> object:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from engine import kernel_cache, kernel_sources
+from engine import kernel_cache
 
 ROOT = Path(__file__).parents[2]
 TOY = "from numba import njit\n@njit(cache=True)\ndef double(x):\n    return 2 * x\n"
@@ -191,12 +191,12 @@ def test_kernels_that_others_could_write_are_not_read(toy):
 def test_what_a_module_imports_of_the_engine_is_part_of_it(tmp_path, monkeypatch):
     package = tmp_path / "engine"
     (package / "room").mkdir(parents=True)
-    monkeypatch.setattr(kernel_sources, "PACKAGE", package)
+    monkeypatch.setattr(kernel_cache, "_PACKAGE", package)
 
     def stamp(**texts: str) -> str:
         for name, text in texts.items():
             (package / "room" / f"{name}.py").write_text(text)
-        for kept in (kernel_cache.stamp, kernel_sources.source_of, kernel_sources._imported):
+        for kept in (kernel_cache.stamp, kernel_cache._source, kernel_cache._imported):
             kept.cache_clear()
         return kernel_cache.stamp(package / "room" / "a.py")
 
@@ -238,7 +238,7 @@ sys.path[:0] = sys.argv[1:3]
 import engine, numba
 numba.config.reload_config()
 import toy
-from engine import kernel_cache, kernel_sources
+from engine import kernel_cache
 told = []
 try:
     with kernel_cache.refusing():

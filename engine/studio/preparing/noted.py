@@ -11,7 +11,6 @@ from functools import cached_property
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from engine.kernel_sources import of_all_kernels, source_of
 from engine.studio.preparing.job_queue import Job
 
 NOTE = "ready.json"
@@ -53,13 +52,13 @@ def folder() -> Path:
 
 
 def stamp() -> str:
-    """Returns what compiled kernels depend on: Inkfall and those of its sources that kernels are compiled of, numba,
-    Python, processor."""
+    """Returns what compiled kernels depend on: Inkfall, and all of its engine, as kernels take constants and functions
+    from nearly all of it; numba, Python, processor."""
     from llvmlite import binding
 
     total = hashlib.sha256()
-    for path in sorted(of_all_kernels()):
-        total.update(source_of(path))
+    for path in sorted((ROOT / "engine").rglob("*.py")):
+        total.update(path.read_bytes())
     features = binding.get_host_cpu_features().flatten()
     about = *map(_version, ("inkfall", "numba")), platform.python_version(), binding.get_host_cpu_name(), features
     total.update(repr(about).encode())
