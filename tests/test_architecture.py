@@ -12,7 +12,6 @@ from sources import ROOT, imported, modules, unit
 # From the bottom to the top.  A unit may import those in the rows above its own here, and itself; units of one row
 # do not know one another.
 ORDER = (
-    ("engine.kernel_sources",),
     ("engine.kernel_cache",),
     ("engine.checks",),
     ("engine.numeric",),
