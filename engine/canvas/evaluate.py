@@ -29,7 +29,7 @@ _CLIMB = 3  # levels up to what is kept of a coarse level for all that lies belo
 _SQUARES = 6  # of these above one another: from there on what is kept is sparser (`from_afar`)
 _LENT = 4  # tiles that the cache holds as parts of one array, at most
 _BAND = 64  # rows worked on at a time, so that a band of all planes stays in the cache of the processor
-_BAND_BYTES = 1 << 19  # of few planes so many rows more
+_BAND_BYTES = 9 << 16  # of few planes so many rows more: half of a tile of the screen, also of one beside the grid
 
 
 def evaluate(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None = None) -> Planes:

@@ -73,7 +73,7 @@ def _by_itself(pyramid: Pyramid, at: Clip, inner: list[Clip], cache: TileCache) 
     whole = evaluate_sparse(pyramid, at.level, at.rect, cache, tiled=False)
     if whole is not None and not whole.data.flags.c_contiguous:
         whole = Planes(np.ascontiguousarray(whole.data), whole.inks)
-    cache.adopt(pyramid, at, whole)
+    cache.lend(pyramid, at, whole)  # as it is: empty inks were left out of hardly more than it
     for mark in inner:
         cache.adopt(pyramid, mark, None)
     return None if whole is None else whole.rgba
