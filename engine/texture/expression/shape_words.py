@@ -8,7 +8,9 @@ from dataclasses import replace
 from engine.numeric import elementary
 from engine.texture.expression.arithmetic_words import wrapped
 from engine.texture.expression.codes import Code
+from engine.texture.expression.graph import NO_ERROR
 from engine.texture.expression.sampling.errors import FEW_FROM
+from engine.texture.expression.spreads import part_of_one
 from engine.texture.expression.weaving import Env, Rule, Value, Weaver
 from engine.texture.expression.written import Term
 
@@ -110,7 +112,10 @@ def _glow(weaver: Weaver, term: Term, env: Env) -> Value:
     (far, reach), error = _nodes(weaver, term, env)
     graph = weaver.graph
     left = graph.plus(graph.times(graph.div(far, reach), -1.0), 1.0)
-    return Value((graph.sub(weaver.ramped(left), weaver.ramped(graph.plus(left, -1.0))),), weaver.errors.bounded(error))
+    made, spread = graph.sub(weaver.ramped(left), weaver.ramped(graph.plus(left, -1.0))), weaver.spreads.of(left)
+    weaver.spreads.told[made] = part_of_one(spread)
+    own = NO_ERROR if weaver.even(left) else weaver.errors.flat(spread.within_squared)
+    return Value((made,), weaver.errors.worst(own, weaver.errors.bounded(error)))
 
 
 def _join(weaver: Weaver, term: Term, env: Env) -> Value:

@@ -56,6 +56,11 @@ def summed_up(spreads: list[Spread]) -> Spread:
     return Spread(math.sqrt(within), math.sqrt(lost))
 
 
+def part_of_one(spread: Spread) -> Spread:
+    """Returns the spread of what lies between 0 and 1, made of something with that spread."""
+    return Spread(min(spread.within, _EVEN), min(spread.lost, _EVEN))
+
+
 class Spreads:
     """Remembers the spreads of a graph's nodes; `told`: those of sources; `width`: of a sample."""
 

@@ -22,7 +22,7 @@ from engine.texture.expression.graph import NO_ERROR, Graph, TooLarge
 from engine.texture.expression.naming.elsewhere import Elsewhere
 from engine.texture.expression.sampling.errors import Errors
 from engine.texture.expression.slopes import Slopes
-from engine.texture.expression.spreads import Spreads
+from engine.texture.expression.spreads import Spreads, part_of_one
 from engine.texture.expression.written import (
     FELT,
     FULL_TURN,
@@ -262,7 +262,9 @@ class Weaver:
         if lost == 0.0:
             return graph.within(graph.plus(graph.div(node, wide), 0.5))
         part = graph.within(graph.plus(graph.times(graph.div(node, wide), _BELL), 0.5))
-        return graph.mul(graph.mul(part, part), graph.plus(graph.times(part, -2.0), 3.0))
+        made = graph.mul(graph.mul(part, part), graph.plus(graph.times(part, -2.0), 3.0))
+        self.spreads.told[made] = part_of_one(self.spreads.of(made))
+        return made
 
     def ramped(self, node: int) -> int:
         """Returns the mean of something where it is above 0, and of 0 elsewhere."""

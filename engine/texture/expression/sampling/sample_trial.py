@@ -11,6 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
+from engine.texture.expression.machine import SHOWN_LEAST, SHOWN_MOST
 from engine.texture.expression.sampling.errors import JUMP_SIDE, MANY_FROM, POINT_SIDE
 
 _PIXELS = 96
@@ -54,10 +55,10 @@ def far_apart(plain: np.ndarray, some: np.ndarray) -> np.ndarray:
 def measured_side(made: Callable[[int], Drawn], period: Fraction) -> int:
     """Returns how many samples along a pixel are enough; `made`: a text for so many; `period`: pixels."""
     plain, some = (_shown_at(made(side), side, period) for side in (1, POINT_SIDE))
-    if _alike(plain, some, _BY_ONE):
+    if _alike(plain, some, _BY_ONE) and not _bounded(plain):
         return 1
     many = _shown_at(made(JUMP_SIDE), JUMP_SIDE, period)
-    return POINT_SIDE if _alike(some, many, _BY_FOUR) else JUMP_SIDE
+    return POINT_SIDE if _alike(some, many, _BY_FOUR) and not _bounded(some) else JUMP_SIDE
 
 
 def samples_of(made: Drawn, period: Fraction) -> tuple[float, bool]:
@@ -98,6 +99,12 @@ def _alike(a: np.ndarray, b: np.ndarray, allowed: tuple[float, float, int]) -> b
     found = math.sqrt(int(squares[: _PIXELS - spared].sum()) / _PIXELS) / _UNIT
     aside = int(np.abs(apart.sum(axis=1)).max()) / (_PIXELS * _UNIT)
     return found <= rms and aside <= _ASIDE and math.sqrt(int(squares[-1])) / _UNIT <= most
+
+
+def _bounded(shown: np.ndarray) -> bool:
+    """Tells whether many pixels are as dark or as bright as can be shown: how far they are from others is not seen."""
+    ends = (shown <= SHOWN_LEAST * _UNIT) | (shown >= SHOWN_MOST * _UNIT)
+    return float(ends.mean(axis=1).max()) > _OFTEN
 
 
 @lru_cache(64)

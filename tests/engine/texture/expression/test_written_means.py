@@ -100,6 +100,29 @@ def test_from_far_the_mean_over_the_repeat_stands():
     assert made.at(-4).fit is None or (made.at(-4).fit[0] == 1.0).all()
 
 
+def test_what_repeats_has_its_mean_at_every_level():
+    """From where a pixel holds nothing of a repeat to where it holds eight; by integrals of what falls off evenly."""
+
+    def wholly(r, reach, power):  # a glow of a circle, to the first or second power, over a repeat
+        rest = reach * r + reach**2 / 3 if power == 1 else reach * r * 2 / 3 + reach**2 / 6
+        return np.pi * (r**2 + rest)
+
+    some = "random(2)*glow(circle(x, y, 0.1*random(1)), 0.1)"
+    for text, mean in (
+        ("glow(circle(x, y, 0.2), 0.1)", wholly(0.2, 0.1, 1)),
+        (some, np.mean(wholly(np.linspace(0, 0.1, 99), 0.1, 1)) / 2),
+        (f"pow({some}, 2)", np.mean(wholly(np.linspace(0, 0.1, 99), 0.1, 2)) / 3),
+        ("pow(fill(circle(x*10, y*10, 1)), 2)", wholly(0.1, 0, 1)),
+        ("pow(max(0, 1 - 10*distance(x, y)), 2)", wholly(0, 0.1, 2)),
+    ):
+        made = expression({"text": f"repeat({text}, 31)"}, -20)
+        for level in range(-5, 3):
+            side = max(8, int(64 * 2.0**level))
+            shown = made.means(level, Rect.at(0, 0, side, side)) / 2 + 0.5
+            assert abs(shown.mean() - mean) < 0.07, (text, level)
+            assert -0.01 < shown.min() <= shown.max() < 1.01, (text, level)
+
+
 def test_few_samples_are_taken_where_few_are_enough():
     def samples(text, number=-1):
         made = expression({"text": text}, -20)
