@@ -53,9 +53,9 @@ def test_a_mask_holds_what_is_picked_and_its_corners_are_dragged_and_kept(progra
     muted = app.parked()[now][8, 8]
     app.click("gamut mask")
     app.click("Pick within the mask")
+    app.wait_until(lambda: kept_wheel(app).get("masked") is False, "the mask is still on")
     app.keys("Escape")
     app.until_gone("Muted")
-    app.wait_until(lambda: kept_wheel(app).get("masked") is False, "the mask is still on")
     app.move_to(app.at("disc", 0.5, 0.97))
     app.do("mousedown", 1)
     app.do("mouseup", 1)

@@ -63,6 +63,8 @@ def blocks_of(pyramid: Pyramid) -> Iterator[Block]:
             away = (page.held[0] for page in stored.pages.values())
             yield from (block for page in away if isinstance(page, FiledPage) for block in page.blocks)
         for record in stored.here() if isinstance(stored, PagedLevel) else stored.values():
+            if not record.there:
+                continue
             filed = record.held.filed if isinstance(record.held, Lessened) else record.held
             if isinstance(filed, Filed):
                 yield filed.block
