@@ -72,7 +72,7 @@ _LOGGER = logging.getLogger("inkfall")
 _NOT_LOADED = Note(
     "The paint engine did not load", True, fault=True, stays=True, offers=("copy_details",), about="engine"
 )
-PASSING = 0.2  # seconds of work on tiles after which they let a swatch pass
+PASSING, _SHARE = 0.2, 4.0  # seconds of work on tiles after which they let a swatch pass; and times what the last took
 _PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at most; and that a swatch does
 _Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  # of `send` and `post`
 
@@ -116,7 +116,7 @@ class Worker:
         self._posted: deque[Request] = deque()
         self._look: Look | None = None
         self._swatches: dict[str, Swatch] = {}
-        self._swatched = 0.0  # when tiles last let one pass
+        self._passing = 0.0  # until when tiles let none pass
         self._turn: float | None = None  # when it ends; None: it does not
         self._worked = 0.0  # when a piece of work was last begun that waits for its turn
         self._asked = 0.0  # when the first of the swatches was
@@ -218,13 +218,19 @@ class Worker:
                     return lambda: bench.look(look)
                 now = time.monotonic()
                 open_in, swatch_in, play_in = self._waits(bench, now)
-                if bench.pending and open_in <= 0.0 and not (swatch_in <= 0.0 and now - self._swatched > PASSING):
+                if bench.pending and open_in <= 0.0 and not (swatch_in <= 0.0 and now > self._passing):
                     self._worked = now
                     return lambda: (bench.step(), None)[1]
                 if swatch_in <= 0.0:
-                    self._swatched = self._worked = self._asked = now
+                    self._worked = self._asked = now
                     swatch = self._swatches.pop(_foremost(self._swatches))
-                    return lambda: bench.do(swatch)
+
+                    def paint(swatch: Swatch = swatch, begun: float = now) -> None:
+                        bench.do(swatch)
+                        ended = time.monotonic()
+                        self._passing = ended + max(PASSING, _SHARE * (ended - begun))
+
+                    return paint
                 if play_in <= 0.0:
                     self._worked = now
                     return bench.play

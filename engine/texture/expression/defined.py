@@ -31,6 +31,7 @@ from engine.texture.expression.written_ink import (
     Expression,
     Named,
     Values,
+    one_way,
     woven_line,
 )
 from engine.texture.record import Instance
@@ -65,7 +66,7 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
         for name in written.felt:  # as values more, which are the stroke's to set
             values = (*values, (FELT[name], _felt(name, parameters)))
         named = _named(parameters.get("named", {}))
-        check_woven(text, values, named, seed, float(period))
+        check_woven(text, one_way(values), named, seed, float(period))
     except WrittenError as error:
         raise FieldError(f"text, line {error.line}, column {error.column}", error.found, error.expected) from None
     stages = parameters.get("stages", USUAL_STAGES)

@@ -121,7 +121,8 @@ class Expression:
     @property
     def cover(self) -> Expression | None:
         """Returns what the texture hides, for an ink that lies over another colour; None if it hides all."""
-        made = self.at(self.base)
+        about = self.text, one_way(self.values), self.named, self.seed, self.base - self.level, self.period
+        made = _program(*about)
         clear = made.channels == 4 and not _always(made, 3, 1.0)
         return replace(self, covers=True) if clear and not self.covers else None
 
@@ -151,6 +152,12 @@ class Expression:
         """Returns what the pixels of a rectangle show: float32, (1, h, w) of -1..1 or (4, h, w) of 0..1."""
         about = self.text, self.values, self.named, self.seed, level - self.level, self.period
         return from_squares(_shown_on, about, self.at(level).channels, rect)
+
+
+def one_way(values: Values) -> Values:
+    """Returns values with the first of a stroke's directions, which tells of all of them what the text is like: a stroke
+    has sixteen, and each that is woven takes tens of milliseconds."""
+    return tuple((name, 0.0 if name == FELT[OWN_WAY] else value) for name, value in values)
 
 
 @lru_cache(_MEMO)
@@ -222,7 +229,7 @@ def _enough(woven: Woven, about: _About, many: Fraction) -> Program:
     made = partial(_sampled, *about)
     if woven.whole is not None:
         return made(POINT_SIDE if woven.rough or woven.jumps else 1)
-    side = measured_side(made, many) if woven.rough else 1
+    side = _measured((about[0], one_way(about[1]), *about[2:]), many) if woven.rough else 1
     if not woven.jumps and side < JUMP_SIDE:
         return made(side)
     compares = side == JUMP_SIDE
@@ -233,6 +240,11 @@ def _enough(woven: Woven, about: _About, many: Fraction) -> Program:
     if often and side == POINT_SIDE:
         return made(side)
     return replace(found, cost=woven.cost * samples, most=POINT_SIDE if often and not compares else JUMP_SIDE)
+
+
+@lru_cache(_MEMO)
+def _measured(about: _About, many: Fraction) -> int:
+    return measured_side(partial(_sampled, *about), many)
 
 
 @lru_cache(16)

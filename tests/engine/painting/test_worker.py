@@ -192,6 +192,24 @@ def test_tiles_let_a_swatch_pass_now_and_then(worker):
     assert places[1] > 20  # the next waits
 
 
+def test_tiles_let_the_next_swatch_pass_the_later_the_longer_the_last_one_took(worker, monkeypatch):
+    times = []
+
+    def slowly(bench, request):
+        times.append(time.monotonic())
+        time.sleep(0.1)
+        times.append(time.monotonic())
+
+    monkeypatch.setattr(Bench, "do", slowly)
+    worker.bench.step = lambda: time.sleep(0.001)  # as if tiles never came to an end
+    worker.bench.open = [1]
+    for n in range(2):
+        worker.post(q.Swatch(f"{n}", None, (1, 1)))
+    until(lambda: len(times) == 4)
+    worker.bench.open.clear()
+    assert times[2] - times[1] >= 4 * (times[1] - times[0])
+
+
 def test_closing_does_what_was_posted_before(worker):
     worker.bench.gate.clear()
     posts = [q.New(Rect(0, 0, n, n)) for n in range(5)]
