@@ -155,8 +155,8 @@ class Expression:
 
 
 def one_way(values: Values) -> Values:
-    """Returns values with the first of a stroke's directions, which tells of all of them what the text is like: a stroke
-    has sixteen, and each that is woven takes tens of milliseconds."""
+    """Returns values with the first of a stroke's directions, which tells of all sixteen what the text is like: each
+    that is woven takes tens of milliseconds."""
     return tuple((name, 0.0 if name == FELT[OWN_WAY] else value) for name, value in values)
 
 
