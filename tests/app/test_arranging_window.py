@@ -17,6 +17,7 @@ def ask(app, name):
     app.do("mouseup", 3)
 
 
+@pytest.mark.nightly
 def test_nothing_moves_under_the_pointer_and_panels_lie_where_they_were_put(program):
     app = program()
     app.settled(60.0)

@@ -13,6 +13,7 @@ FACTS = ("Power spectrum", "Autocorrelation", "All-pole model", "Regions")
 LINE = [(300 + 20 * i, 200 + (25 if i % 6 < 3 else -25)) for i in range(30)]
 
 
+@pytest.mark.nightly
 def test_paint_a_spectrum_then_paint_with_it(program):
     app = program()
     app.do("mousemove", *POINTER)

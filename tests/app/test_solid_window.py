@@ -9,6 +9,7 @@ from engine.solids.cube_files import write_cube
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 
+@pytest.mark.nightly
 def test_a_solid_is_turned_and_its_slice_is_ink(program, tmp_path):
     kept = tmp_path / "data" / "inkfall" / "solids"
     kept.mkdir(parents=True)

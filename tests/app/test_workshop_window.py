@@ -31,9 +31,11 @@ def test_a_texture_is_written_and_painted_with(program):
     kept = app.screen()[seen]
     assert kept.std() > 5, "the last good picture stays"
     app.keys("BackSpace", "BackSpace")
-    with suppress(AssertionError):
-        app.until_gone("mistake", 15.0)
-    if "mistake" in {name for _, name in app.boxes()}:  # a key was lost on a busy machine
+    for _ in range(4):  # a key may be lost on a busy machine
+        with suppress(AssertionError):
+            app.until_gone("mistake", 15.0)
+        if "mistake" not in {name for _, name in app.boxes()}:
+            break
         app.keys("ctrl+a")
         app.type(TEXT)
     app.until_gone("mistake")

@@ -119,9 +119,16 @@ def whole(worker, folder):
 
 def then(worker, tmp_path):
     """What a `kill -9` would leave now: the one entry, recovered."""
-    left_over = tmp_path / f"then-{time.monotonic_ns()}"
-    shutil.copytree(tmp_path / "p", left_over)
-    (entry,) = entries.listed(left_over)
+    found = []
+
+    def one():  # while it begins anew there are two
+        left_over = tmp_path / f"then-{time.monotonic_ns()}"
+        shutil.copytree(tmp_path / "p", left_over)
+        found[:] = entries.listed(left_over)
+        return len(found) == 1
+
+    until(one)
+    (entry,) = found
     assert not entry.in_bin
     assert not entry.faults
     return entry, recovered(entry.folder)
