@@ -1,4 +1,4 @@
-"""Draws valley.webp: the valley of the gallery as land, seen from above, from its lake, and from beside a stone.
+"""Draws valley.webp: the valley of the gallery as land, seen from above, from its lake, and from beside a rock.
 
 python palettes/pictures/make_valley_views.py
 """
