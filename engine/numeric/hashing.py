@@ -18,6 +18,7 @@ MASK64 = (1 << 64) - 1
 _GOLDEN = 0x9E3779B97F4A7C15
 _FIRST = np.uint64(0xBF58476D1CE4E5B9)
 _SECOND = np.uint64(0x94D049BB133111EB)
+_WHOLE_FIRST, _WHOLE_SECOND = int(_FIRST), int(_SECOND)
 
 
 @inlined
@@ -36,8 +37,8 @@ def place64(key: np.uint64, x: np.uint64, y: np.uint64) -> np.uint64:
 
 def mixed(h: int) -> int:
     """`mix64` on a Python integer in [0, 2^64)."""
-    h = ((h ^ (h >> 30)) * int(_FIRST)) & MASK64
-    h = ((h ^ (h >> 27)) * int(_SECOND)) & MASK64
+    h = ((h ^ (h >> 30)) * _WHOLE_FIRST) & MASK64
+    h = ((h ^ (h >> 27)) * _WHOLE_SECOND) & MASK64
     return h ^ (h >> 31)
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Container, Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from engine.numeric import elementary
 from engine.texture.expression.codes import COST, Code
@@ -22,8 +22,7 @@ class TooLarge(ValueError):
     """A texture of more operations than are allowed."""
 
 
-@dataclass(frozen=True, slots=True)
-class Operation:
+class Operation(NamedTuple):
     """`numbers`: constants that it works with; `key`: of its hashes; `kind`, `slope`: which variant."""
 
     code: int

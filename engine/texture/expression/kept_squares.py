@@ -16,8 +16,10 @@ SQUARES: Recent[np.ndarray] = Recent(lambda: _KEPT)
 
 
 def from_squares(draw: Callable[..., np.ndarray], about: tuple[Hashable, ...], channels: int, rect: Rect) -> np.ndarray:
-    """Returns what `draw(*about, rect)` does, float32 (channels, h, w), a new array.  It gives each pixel the same
-    value in whatever rectangle."""
+    """Returns what `draw(*about, rect)` does, float32 (channels, h, w), an array as new as that is.  It gives each
+    pixel the same value in whatever rectangle."""
+    if 0 < rect.area * _WORTH < TILE * TILE:
+        return draw(*about, rect)
     out = np.empty((channels, rect.height, rect.width), np.float32)
     for piece, square in _squares(rect):
         if piece.area * _WORTH >= square.area:

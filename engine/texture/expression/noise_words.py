@@ -57,7 +57,12 @@ def _seed(weaver: Weaver, term: Term, env: Env, at: int) -> int:
 
 
 def _key(weaver: Weaver, *about: int) -> int:
-    return fold_key(_DOMAIN, weaver.setting.seed, *about)
+    return _folded_key(weaver.setting.seed, *about)
+
+
+@lru_cache(_OCTAVES_KEPT)
+def _folded_key(*about: int) -> int:
+    return fold_key(_DOMAIN, *about)
 
 
 _Lattice = tuple[float, float, float, float, float]
@@ -80,10 +85,10 @@ def _widths(weaver: Weaver, place: list[int]) -> tuple[int, int]:
     return weaver.width(place[0]), weaver.width(place[1])
 
 
-def _unseen(weaver: Weaver, widths: tuple[int, int], scale: float, widest: float = CELLS_SEEN) -> bool:
-    """Tells whether cells are too fine for every sample."""
+def _unseen(weaver: Weaver, widths: tuple[int, int]) -> bool:
+    """Tells whether units are too fine for every sample."""
     told = [weaver.graph.value(width) for width in widths]
-    return any(one is not None and one * scale >= widest for one in told)
+    return any(one is not None and one >= CELLS_SEEN for one in told)
 
 
 def _noises(weaver: Weaver, place: list[int], seed: int, octaves: list[tuple[float, float]]) -> int:
@@ -91,11 +96,12 @@ def _noises(weaver: Weaver, place: list[int], seed: int, octaves: list[tuple[flo
     numbers: list[float] = []
     keys: list[int] = []
     widths, spreads = _widths(weaver, place), []
+    usual, told = _told_width(weaver, place, widths), [weaver.graph.value(width) for width in widths]
+    widest = max((one for one in told if one is not None), default=0.0)
     for n, (finer, gain) in enumerate(octaves):
         lattice, key = _octave((weaver.setting.seed, seed), n, finer, gain)
-        wide = _told_width(weaver, place, widths) * lattice[0]
-        spreads.append(spread_within(abs(gain) * _SPREAD, wide, *_NOISE_FADES))
-        if not _unseen(weaver, widths, lattice[0], lattice[4]):
+        spreads.append(spread_within(abs(gain) * _SPREAD, usual * lattice[0], *_NOISE_FADES))
+        if widest * lattice[0] < lattice[4]:
             numbers += lattice
             keys.append(key)
     if not keys:
@@ -202,7 +208,7 @@ def half_white(weaver: Weaver, place: list[int], which: tuple[int, int], about: 
     widths = _widths(weaver, place)
     wide = _told_width(weaver, place, widths)
     spread = spread_within(_EVEN, wide, 0.6, 2.0, (0.0, 0.01))
-    if _unseen(weaver, widths, 1.0):
+    if _unseen(weaver, widths):
         return weaver.graph.plus(_level(weaver, spread), about)
     if not env.mean:
         blurred = min(max(wide - 0.5, 0.0), 1.0)

@@ -23,9 +23,9 @@ from engine.texture.expression.programs import Program, draw_pixels, program
 from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
 from engine.texture.expression.sampling.far_fit import (
     CROWDED_BELOW,
-    FAR_COST,
     FAR_SIDE,
     FITTED_BELOW,
+    far_cost,
     fit_to_near,
     near_level,
     shown_at_places,
@@ -38,6 +38,7 @@ from engine.texture.record import Instance
 FINEST_PIXEL = 34  # a pixel of 2^-34 periods is the last that differs from its neighbours
 _COARSEST = -40  # levels above where the period is told
 _MEMO = 256
+_WOVEN = 4  # of up to three megabytes: of one line, for the samples that are tried
 
 Values = tuple[tuple[str, float | str], ...]
 Named = tuple[tuple[str, Instance], ...]
@@ -197,6 +198,13 @@ def woven_line(
 ) -> Woven:  # fmt: skip
     """Returns what a line of a text is, so many levels finer than where its period is told, for one of so many samples
     along a pixel."""
+    return _woven(text, values, named, seed, finer, period, line, side)
+
+
+@lru_cache(_WOVEN)
+def _woven(
+    text: str, values: Values, named: Named, seed: int, finer: int, period: float, line: int, side: int
+) -> Woven:
     width = float(1 / pixels(period, max(finer, _COARSEST))) / side
     return weave(read(text), Setting(dict(values), finer, seed, width, textures_by_name(named), side), line)
 
@@ -220,8 +228,8 @@ def _from_afar(found: Program, about: _About, many: Fraction) -> Program:
     most = found.side if found.finer is None else found.most
     if many >= CROWDED_BELOW or most < JUMP_SIDE or found.takes:
         return found
-    made = _sampled(*about, FAR_SIDE)
-    return made if made.cost <= FAR_COST else found
+    dear = _sampled(*about, JUMP_SIDE).cost * (FAR_SIDE / JUMP_SIDE) ** 2
+    return _sampled(*about, FAR_SIDE) if dear <= far_cost(many) else found
 
 
 def _enough(woven: Woven, about: _About, many: Fraction) -> Program:
@@ -233,18 +241,26 @@ def _enough(woven: Woven, about: _About, many: Fraction) -> Program:
     if not woven.jumps and side < JUMP_SIDE:
         return made(side)
     compares = side == JUMP_SIDE
-    found = program(
-        woven_line(*about, POINT_SIDE) if side == POINT_SIDE else woven, 1 if compares else side, made, compares
-    )
+    if side == POINT_SIDE:
+        found = program(woven_line(*about, POINT_SIDE), side, made)
+    else:
+        found = _comparing(about) if compares else program(woven, side, made)
     samples, often = samples_of(found, many)
     if often and side == POINT_SIDE:
         return made(side)
     return replace(found, cost=woven.cost * samples, most=POINT_SIDE if often and not compares else JUMP_SIDE)
 
 
+@lru_cache(_WOVEN)
+def _comparing(about: _About) -> Program:
+    """Returns the program for one sample of each pixel, with its error, and more where four are far from that."""
+    return program(woven_line(*about), 1, partial(_sampled, *about), True)
+
+
 @lru_cache(_MEMO)
 def _measured(about: _About, many: Fraction) -> int:
-    return measured_side(partial(_sampled, *about), many)
+    made = partial(_sampled, *about)
+    return measured_side(_comparing(about) if woven_line(*about).jumps else made(1), made, many)
 
 
 @lru_cache(16)

@@ -147,26 +147,28 @@ def _summed(flat: np.ndarray, at: list[np.ndarray], across: list[np.ndarray], do
 
 def _pieces(x: np.ndarray, y: np.ndarray, size: tuple[int, int]) -> Iterator[tuple[Rect, np.ndarray]]:
     """Yields rectangles in which so many pixels from some places on lie, and for which places that is."""
-    for which in _grouped(x // TILE, y // TILE):
-        rect = _around(x[which], y[which], size)
+    for rect, which in _grouped(x, y, TILE, size):
         if rect.area <= max(_FEW, _WASTE * which.size):
             yield rect, which
             continue
-        for some in _grouped(x[which] // _PIECE, y[which] // _PIECE):
-            yield _around(x[which[some]], y[which[some]], size), which[some]
+        for piece, some in _grouped(x[which], y[which], _PIECE, size):
+            yield piece, which[some]
 
 
-def _around(x: np.ndarray, y: np.ndarray, size: tuple[int, int]) -> Rect:
-    return Rect(int(x.min()), int(y.min()), int(x.max()) + size[0], int(y.max()) + size[1])
-
-
-def _grouped(x: np.ndarray, y: np.ndarray) -> list[np.ndarray]:
-    """Returns which pairs are alike, for each kind of them."""
-    if x[0] == x[-1] and y[0] == y[-1] and (x == x[0]).all() and (y == y[0]).all():
-        return [np.arange(x.size)]
-    order = np.lexsort((x, y))
-    changes = np.flatnonzero((np.diff(x[order]) != 0) | (np.diff(y[order]) != 0)) + 1
-    return np.split(order, changes)
+def _grouped(x: np.ndarray, y: np.ndarray, side: int, size: tuple[int, int]) -> list[tuple[Rect, np.ndarray]]:
+    """Returns what places of each square of some pixels ask for: the rectangle, and which places."""
+    across, down = x // side, y // side
+    order, first = np.arange(x.size), np.zeros(1, np.int64)
+    if not ((across == across[0]).all() and (down == down[0]).all()):
+        order = np.lexsort((across, down))
+        changes = (np.diff(across[order]) != 0) | (np.diff(down[order]) != 0)
+        first = np.concatenate([first, np.flatnonzero(changes) + 1])
+    ends = [one.reduceat(place[order], first).tolist() for one in (np.minimum, np.maximum) for place in (x, y)]
+    last = [*first[1:].tolist(), x.size]
+    return [
+        (Rect(left, top, right + size[0], bottom + size[1]), order[start:end])
+        for left, top, right, bottom, start, end in zip(*ends, first.tolist(), last, strict=True)
+    ]
 
 
 @lru_cache(64)

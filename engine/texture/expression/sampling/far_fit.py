@@ -17,13 +17,19 @@ import numpy as np
 
 FITTED_BELOW, FITTED_TO = 16, 64  # pixels a period: below which pixels are fitted, and from which on to what
 CROWDED_BELOW, FAR_SIDE = 8, 8  # pixels a period, below which those with edges take so many samples each way,
-FAR_COST = 90_000.0  # where these are no more nanoseconds a pixel, about
+_FAR_COST = ((0, 90_000.0),)  # where these are no more nanoseconds a pixel, of at least so many pixels a period
 _PLACES, _ACROSS = 2048, 16.0  # how many, within how many periods each way
 _UNIT = 1 << 14
 _TURNS = (0.7548776662466927, 0.5698402909980532)  # as in `sample_trial`
 _LEAST = 4.0 / 255.0 / 255.0  # variance of what is seen from far: of less it cannot be told whether it is there
 _STEEPEST, _SLIGHTLY, _SURE = 8.0, 0.15, 4.0  # a factor; how far from 1 it must be, and in standard errors
 _AtPixels = Callable[[np.ndarray, np.ndarray], np.ndarray]  # what pixels show, by their columns and rows
+
+
+def far_cost(period: Fraction) -> float:
+    """Returns how many nanoseconds a pixel may take from far, where a period has so many pixels: the more the fewer
+    levels as far there are."""
+    return next(cost for least, cost in _FAR_COST if period >= least)
 
 
 def near_level(period: float) -> int:

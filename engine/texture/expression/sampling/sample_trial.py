@@ -14,7 +14,7 @@ import numpy as np
 from engine.texture.expression.machine import SHOWN_LEAST, SHOWN_MOST
 from engine.texture.expression.sampling.errors import JUMP_SIDE, MANY_FROM, POINT_SIDE
 
-_PIXELS = 96
+_PIXELS, _TRIALS = 96, 4
 _ACROSS = ((41.0, 256.0), (3.0, 12.0))  # periods, but no fewer pixels, within which every other one lies
 _UNIT = 1 << 16
 _OFTEN = 1.0 / 12.0  # of the pixels
@@ -28,11 +28,17 @@ _TURNS = (0.7548776662466927, 0.5698402909980532)  # no two pixels are near one 
 
 
 class Drawn(Protocol):
-    """A program, as `programs.Program`."""
+    """A program, as `programs.Program`: two are the same where they are one."""
+
+    def __hash__(self) -> int: ...
 
     @property
     def side(self) -> int:
         """Gives samples along a pixel."""
+
+    @property
+    def channels(self) -> int:
+        """Gives planes, but for that of the error."""
 
     @property
     def compares(self) -> bool:
@@ -52,12 +58,13 @@ def far_apart(plain: np.ndarray, some: np.ndarray) -> np.ndarray:
     return found
 
 
-def measured_side(made: Callable[[int], Drawn], period: Fraction) -> int:
-    """Returns how many samples along a pixel are enough; `made`: a text for so many; `period`: pixels."""
-    plain, some = (_shown_at(made(side), side, period) for side in (1, POINT_SIDE))
+def measured_side(one: Drawn, made: Callable[[int], Drawn], period: Fraction) -> int:
+    """Returns how many samples along a pixel are enough; `one`, `made`: a text for one, and for so many; `period`:
+    pixels."""
+    plain, some = (_whole(_tried(drawn, period)[: drawn.channels]) for drawn in (one, made(POINT_SIDE)))
     if _alike(plain, some, _BY_ONE) and not _bounded(plain):
         return 1
-    many = _shown_at(made(JUMP_SIDE), JUMP_SIDE, period)
+    many = _whole(_tried(made(JUMP_SIDE), period))
     return POINT_SIDE if _alike(some, many, _BY_FOUR) and not _bounded(some) else JUMP_SIDE
 
 
@@ -65,10 +72,10 @@ def samples_of(made: Drawn, period: Fraction) -> tuple[float, bool]:
     """Returns how many samples a pixel takes, about, of a program by which some take more than others, and whether what
     was measured tells of these, too: they are many, or sixteen show no more of them than four."""
     assert made.finer is not None
-    found = made.over(*_places(made.side, float(period)), _PIXELS)
+    found = _tried(made, period)
     more, samples = found[-1] >= MANY_FROM, float(made.side**2)
     if made.compares:
-        some = made.finer(POINT_SIDE).over(*_places(POINT_SIDE, float(period)), _PIXELS)
+        some = _tried(made.finer(POINT_SIDE), period)
         more, samples = more | far_apart(found[:-1], some), samples + POINT_SIDE**2
     part = float(np.count_nonzero(more)) / _PIXELS
     often = part > _OFTEN or (made.side == POINT_SIDE and part > 0.0 and not _shows_jumps(made, found, period))
@@ -78,14 +85,17 @@ def samples_of(made: Drawn, period: Fraction) -> tuple[float, bool]:
 def _shows_jumps(made: Drawn, some: np.ndarray, period: Fraction) -> bool:
     """Tells whether sixteen samples show more than four of the pixels in which something jumps."""
     assert made.finer is not None
-    many = _shown_at(made.finer(JUMP_SIDE), JUMP_SIDE, period)
+    many = _whole(_tried(made.finer(JUMP_SIDE), period))
     squares = np.square(_whole(some[:-1]) - many).max(axis=0)[some[-1] >= MANY_FROM]
     return math.sqrt(int(squares.sum()) / squares.size) / _UNIT > _SHOWS
 
 
-def _shown_at(made: Drawn, side: int, period: Fraction) -> np.ndarray:
-    shown = made.over(*_places(side, float(period)), _PIXELS)
-    return _whole(shown)
+@lru_cache(_TRIALS)
+def _tried(made: Drawn, period: Fraction) -> np.ndarray:
+    """Returns what these pixels show, with as many samples as a program takes of each: float32 (planes, pixels)."""
+    shown = made.over(*_places(made.side, float(period)), _PIXELS)
+    shown.flags.writeable = False
+    return shown
 
 
 def _whole(shown: np.ndarray) -> np.ndarray:
