@@ -6,6 +6,9 @@ import pytest
 from app.desk.holding.dipping import dipped
 from app.desk.holding.generator_brushes import GENERATORS, generator_brushes
 from engine.numeric.address import Rect
+from engine.painting.value import Painting
+from engine.studio.requests import Swatch
+from engine.studio.textures.swatches import painted
 from engine.texture.expression.defined import expression
 from engine.texture.expression.library.bundled_texts import generator_library
 from engine.texture.expression.placing.centre_line import simplified
@@ -32,7 +35,7 @@ def test_each_shows_things_near_and_far(name):
     whole = laid.means(0, laid.rect(0))
     assert whole[3].max() > 0.95
     assert 0.05 < whole[3].mean() < 0.95
-    assert whole[:3][:, whole[3] > 0.9].std() > 0.03
+    assert (whole if "ink = pick" in made.text else whole[:3, whole[3] > 0.9]).std() > 0.03
 
 
 @pytest.mark.parametrize("name", ["fence", "houses", "hedge"])
@@ -53,4 +56,16 @@ def test_they_are_brushes_of_a_group():
     assert {preset.group for preset in found} == {GENERATORS}
     assert {preset.brush.row.name for preset in found} == {"generate"}
     assert len({preset.name for preset in found}) == len(NAMES) >= 10
-    assert all(dipped(one.brush, "#fe5b5b").ink == dipped(one.brush, "#000000").ink for one in found)
+    dippings = [[dipped(one.brush, colour).ink for colour in ("#fe5b5b", "#000000")] for one in found]
+    (drawn,) = [one.name for one, (red, black) in zip(found, dippings, strict=True) if red != black]
+    assert drawn == "Hatching along the stroke"
+
+
+def test_lines_along_the_stroke_are_of_the_hands_colour_and_leave_the_canvas_between():
+    found = next(one for one in generator_brushes() if one.name == "Hatching along the stroke")
+    brush = dipped(found.brush, "#fe5b5b")
+    red, green, _, alpha = painted(Swatch("", brush, (312, 132), textures=found.textures), Painting())
+    covered, between = (alpha > 0.7).mean(), (alpha[44:88, 100:200] < 0.1).mean()
+    assert 0.05 < covered < 0.6
+    assert 0.05 < between < 0.9
+    assert np.abs(red - green - alpha * (0xFE - 0x5B) / 255).max() < 0.02

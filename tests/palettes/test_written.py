@@ -50,6 +50,8 @@ def test_they_are_brushes_of_a_group():
     taken = {one.name.casefold() for preset in others for one in (preset, *preset.textures)}
     assert not taken & {preset.name.casefold() for preset in found}
     assert all(dipped(one.brush, "#fe5b5b").ink == dipped(one.brush, "#000000").ink for one in found)
+    lines = {preset.name for preset in found if not preset.brush.ink}
+    assert lines == {"Cross-hatching", "Hatching with a pen"}
     drawn = next(preset for preset in found if preset.name == "Basket")
     picture = painted(Swatch(drawn.name, drawn.brush, (104, 44), textures=drawn.textures), Painting())
     assert picture[3].max() > 0.9

@@ -7,15 +7,19 @@ strokes do not know.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 
-from app.desk.colours import gone_along, to_hex
+from immutables import Map
+
+from app.desk.colours import RGB, gone_along, to_hex
 from engine.brush import checks
 from engine.brush.parts import Component, Edge
 from engine.brush.settings import Brush
 
 FIXED = "fixed"  # true where a part keeps its colour
+INK = "ink"  # of the values of a written texture, the colour that is the hand's
 
 
 def is_fixed(part: Component | Edge) -> bool:
@@ -41,13 +45,20 @@ def in_colour(brush: Brush, colour: str) -> Brush:
     if colour == brush.colour:
         return brush
     old, new = brush.rgb, checks.rgb(colour)
-    ink = tuple(
-        part if is_fixed(part) else replace(part, colour=to_hex(gone_along(part.rgb, old, new))) for part in brush.ink
-    )
+    ink = tuple(part if is_fixed(part) else _gone(part, (old, new), colour) for part in brush.ink)
     edge = brush.edge
     if edge is not None and edge.colour is not None and not is_fixed(edge):
         edge = replace(edge, colour=to_hex(gone_along(edge.rgb, old, new)))
     return replace(brush, colour=colour, ink=ink, edge=edge)
+
+
+def _gone(part: Component, ways: tuple[RGB, RGB], hand: str) -> Component:
+    """Returns an ink gone along from one colour to another, `hand`, which its texture's text may ask for."""
+    told, colour = part.parameters, to_hex(gone_along(part.rgb, *ways))
+    values = told.get("values")
+    if isinstance(values, Mapping) and INK in values:
+        told = told.set("values", Map({**values, INK: hand}))
+    return replace(part, colour=colour, parameters=told)
 
 
 @lru_cache(maxsize=64)

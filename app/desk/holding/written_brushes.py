@@ -8,18 +8,16 @@ from app.desk.presets import Preset
 from engine.brush import settings
 from engine.brush.settings import Brush
 from engine.painting.commands import DefineTexture
-from engine.texture.expression.library.bundled_texts import written_library
+from engine.texture.expression.library.bundled_texts import LibraryText, written_library
 
 GROUP = "Written"
-_LINES = {"Cross-hatching", "Hatching with a pen"}  # which leave the paper free between them
-_DRAWN = {"Hatching along the stroke"}
 _SHAPE = {"radius": 48, "hardness": 0.95, "spacing": 0.12, "dynamics": {"radius": [[0, 0.6], [1, 1]]}}
 
 
 def written_brushes() -> list[Preset]:
     """Returns the brushes, by name; a definition holds its text, so that a painting keeps its pixels."""
     return [
-        Preset(one.title, _brush(one.title), None, GROUP, (_definition(one.title, one.text),), tags=_tags(one.about))
+        Preset(one.title, _brush(one), None, GROUP, (_definition(one.title, one.text),), tags=_tags(one.about))
         for _, one in sorted(written_library().items())
     ]
 
@@ -28,12 +26,11 @@ def _definition(title: str, text: str) -> DefineTexture:
     return DefineTexture(title, "expression", Map({"text": text}))
 
 
-def _brush(title: str) -> Brush:
-    part = {"texture": title, "amount": 1}
-    if title in _DRAWN:  # its lines are of the hand's colour, on white
-        return settings.from_json({**_SHAPE, "dynamics": {}, "ink": [{**part, "colour": "#ffffff", "fixed": True}]})
-    own = {**part, "fixed": True}  # it has colours of its own, whatever the hand paints with
-    return settings.from_json({**_SHAPE, **({"density": part} if title in _LINES else {"ink": [own]})})
+def _brush(one: LibraryText) -> Brush:
+    part = {"texture": one.title, "amount": 1}
+    if one.in_lines:  # of the hand's colour, the paper free between them
+        return settings.from_json({**_SHAPE, "density": part})
+    return settings.from_json({**_SHAPE, "ink": [{**part, "fixed": True}]})  # it has colours of its own
 
 
 def _tags(about: str) -> tuple[str, ...]:

@@ -1,5 +1,9 @@
 """The written textures that come along: a text each, palettes/written/NAME.txt, whose first line tells what it is.
 
+    // Cross-hatching, in lines: one layer more wherever it is darker
+
+One `in lines` is 1 where a pen drew and 0 between: its brush leaves the paper free there.
+
 A text that is part of a release is never changed: paintings and recordings may name it, and keep their pixels.  What is
 better has another name.
 """
@@ -25,6 +29,11 @@ class LibraryText:
     title: str
     about: str
     text: str
+
+    @property
+    def in_lines(self) -> bool:
+        """Tells whether it is where a pen drew, not what lies all over."""
+        return self.about.partition(":")[0].endswith(", in lines")
 
 
 @lru_cache(maxsize=1)
