@@ -18,6 +18,7 @@ from app.panels.workshop import text_colours, text_letters
 from app.panels.workshop.completing import function_around, word_at
 from app.panels.workshop.completion_list import CompletionList
 from app.panels.workshop.text_colours import Names
+from app.panels.workshop.text_steps import TextSteps, Typed
 from engine.studio.workshop.workshop_records import WorkshopMistake, WorkshopWord, WorkshopWords
 
 At = edit.TextEditor.DocPos
@@ -64,6 +65,7 @@ class TextField:
         editor.set_line_decorator(text_letters.GUTTER, _no_mark)
         editor.set_custom_caret_renderer(text_letters.draw_caret)
         self._completion = CompletionList(editor)
+        self._steps, self._count = TextSteps(), 0  # of undo, and how many the editor had
         self._words = WorkshopWords()
         self._marked: WorkshopMistake | None = None
         self._names, self._rows = (WorkshopWords(), ""), Names()
@@ -82,6 +84,7 @@ class TextField:
         else:
             self._editor.select_all()
             self._editor.replace_text_in_current_cursor(text)
+        self._note()
         self._editor.set_cursor(At(0, 0))
         self._text = self._editor.get_text()
         self._completion.close()
@@ -92,12 +95,17 @@ class TextField:
         self._editor.set_focus()
 
     def travel(self, steps: int) -> None:
-        """Takes back what was written, or writes it again."""
-        if steps < 0 and self._editor.can_undo():
-            self._editor.undo()
-        elif steps > 0 and self._editor.can_redo():
-            self._editor.redo()
-        self._text = self._editor.get_text()
+        """Takes back what was written, a word or what was typed until a pause, or writes it again."""
+        editor = self._editor
+        if steps < 0:
+            back = self._steps.back(editor.get_undo_index())
+            while editor.can_undo() and editor.get_undo_index() > back:
+                editor.undo()
+        else:
+            again = self._steps.again(editor.get_undo_index())
+            while editor.can_redo() and (again is None or editor.get_undo_index() < again):
+                editor.redo()
+        self._text, self._count = editor.get_text(), editor.get_undo_index()
 
     @property
     def travels(self) -> tuple[bool, bool]:
@@ -117,11 +125,13 @@ class TextField:
         painter.add_rect_filled(corner, corner + size, theme.packed(theme.look.field), imgui.get_style().frame_rounding)
         imgui.push_font(theme.letters, theme.FONT_SIZE - 1.0)
         self._completion.take_keys(self.focused)
+        self._take_keys()
         self._editor.render("##text", size)
         w.placed("text of the texture", corner, corner + size)
         hovered = imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip)
         self.focused = imgui.is_item_focused() or self._editor_focused()
         text = self._editor.get_text()
+        self._note()
         typed, self._text = text != self._text, text
         text_letters.draw_letters(self._editor, (corner, corner + size), self._known(), shown.note)
         self._beside((corner, corner + size), shown.beside)
@@ -129,6 +139,27 @@ class TextField:
         self._completion.draw(typed and self.focused, self._known(), shown.words, shown.textures)
         if hovered:
             self._hint(corner, size, shown.words)
+
+    def _take_keys(self) -> None:
+        """Takes the keys of undo from the editor, whose steps are a letter each."""
+        io, owner = imgui.get_io(), imgui.get_id("undo")
+        if not self.focused or not io.key_ctrl or io.key_alt:
+            return
+        for key, steps in ((imgui.Key.z, 1 if io.key_shift else -1), (imgui.Key.y, 1)):
+            if imgui.is_key_pressed(key):
+                imgui.internal.set_key_owner(key, owner, imgui.internal.InputFlagsPrivate_.lock_this_frame)
+                self.travel(steps)
+
+    def _note(self) -> None:
+        """Takes what was written since it was looked at last into the steps of undo."""
+        count, self._count = self._count, self._editor.get_undo_index()
+        if self._count <= count:
+            return
+        at = self._editor.get_main_cursor_position()
+        before = self._editor.get_line_text(at.line)[: at.index]
+        grown = len(self._editor.get_text()) - len(self._text)
+        typed = Typed(grown, (at.line, at.index), before, imgui.get_time())
+        self._steps.note(count, self._count - count, typed)
 
     def _editor_focused(self) -> bool:
         window = imgui.get_current_context().nav_window
