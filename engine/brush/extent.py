@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from engine.brush.rim import Tiles
 from engine.brush.settings import Brush
 from engine.numeric import sparse
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.remembered import remembered
 from engine.numeric.spectra import radial_window
 from engine.texture.image import ImageSource
 from engine.texture.spectral import Sparse
@@ -132,7 +132,7 @@ def _own_size(made: Sparse) -> tuple[int, int]:
     return max(1, round(made.period * made.source.height / made.source.width)), made.period
 
 
-@lru_cache(maxsize=8)
+@remembered
 def _window(size: tuple[int, int], coarser: int, arithmetic: int) -> sparse.Impulse:
     whole = sparse.Impulse.of(radial_window(*size, arithmetic)[None])
     return whole.seen(coarser) if coarser else whole

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any, cast
 
 import numpy as np
@@ -27,6 +26,7 @@ from engine.numeric.elementary import log2
 from engine.numeric.hashing import fold_key, mix64
 from engine.numeric.kernel import Array, inlined, kernel
 from engine.numeric.pyramid import reduce
+from engine.numeric.remembered import remembered
 from engine.numeric.shaping import look_up, table
 from engine.texture.grey import LUMINANCE, grey
 from engine.texture.image import ImageSource, stretched
@@ -140,12 +140,12 @@ def _laid_out(
     return named(replace(tip, parameters=tip.parameters.set("period", size)), textures, level, seed, where)
 
 
-@lru_cache(maxsize=8)
+@remembered
 def _field(made: Any, curve: Shape | None, size: int) -> np.ndarray:
     return _curved(grey(made, made.base, Rect(0, 0, size, size)), curve).ravel()
 
 
-@lru_cache(maxsize=8)
+@remembered
 def _sample(made: Any, curve: Shape | None, size: int) -> tuple[np.ndarray, np.ndarray]:
     """Returns the sample, of an Instance or an ImageSource, at its size, half of it, and so on, after its curve:
     `planes` and `sizes` of a Pattern."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from engine.makers.lewis import SAMPLE_CAP, Pictures, Sample, flattened
 from engine.numeric.colour_axes import axes_of
 from engine.numeric.grid import snapped
 from engine.numeric.pyramid import reduce
+from engine.numeric.remembered import remembered
 from engine.numeric.resample import resampled
 from engine.painting.commands import SEED_LIMIT
 from engine.texture.adjusting import GAIN_CAP, Band, adjusted
@@ -163,7 +163,7 @@ def pattern_of(plan: Plan, stage: int = 0) -> Pattern:
     return adjusted(found, plan.bands, plan.axes)
 
 
-@lru_cache(maxsize=6)
+@remembered
 def _pattern(examples: tuple[Example, ...], shape: Shape, how: str, mix: Mix) -> Pattern:
     if len(examples) == 1:
         return analysed(examples[0].planes, shape)

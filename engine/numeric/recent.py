@@ -11,10 +11,13 @@ Made = TypeVar("Made")
 
 
 class Recent(Generic[Made]):
-    """What was made of late, bounded by bytes: the oldest is forgotten first.  Safe for several threads."""
+    """What was made of late, bounded by bytes: the oldest is forgotten first.  Safe for several threads.
 
-    def __init__(self, most: Callable[[], int]) -> None:
-        self._most, self._held = most, 0
+    `least`: bytes that stay, whoever wants room.
+    """
+
+    def __init__(self, most: Callable[[], int], least: int = 0) -> None:
+        self._most, self._least, self._held = most, least, 0
         self._made: OrderedDict[Hashable, tuple[Made, int]] = OrderedDict()
         self._lock = threading.Lock()
 
@@ -38,7 +41,7 @@ class Recent(Generic[Made]):
     def shrink(self, by: int) -> None:
         """Forgets so many bytes, as far as there are any."""
         with self._lock:
-            self._evict(self._held - by)
+            self._evict(max(self._held - by, self._least))
 
     @property
     def held(self) -> int:

@@ -25,6 +25,7 @@ from engine.files.fault import FileError
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba16
+from engine.numeric.remembered import remembered
 from engine.painting import commands as c
 from engine.painting.capture import read_straight
 from engine.painting.textures import Around, Texture
@@ -43,7 +44,6 @@ KIND = "example"
 BUNDLED = Path(__file__).resolve().parents[2] / "palettes" / "examples"
 STROKES_CAP = 4096
 _ENDINGS = {"path": ".png", "mask": ".mask.png", "params": ".toml"}
-_HELD = 12  # analyses kept in memory
 _WHITE = 0.5
 _SHAS = "sha", "mask_sha", "control_sha"
 _CHANGED = "is not what was there when it was recorded"
@@ -272,7 +272,7 @@ def key_of(texture: Texture, detail: int = 0) -> str:
     return hashlib.sha256(repr(about).encode()).hexdigest()
 
 
-@lru_cache(maxsize=_HELD)
+@remembered
 def _analysed(origin: Origin, parameters: Parameters, arithmetic: int) -> Exemplar:
     source, mask, detail = origin.source, origin.mask, origin.detail
     if origin.learning is not None:

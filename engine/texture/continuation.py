@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.array_functions import array_functions
 from engine.numeric.colour_axes import ColourAxes, combined
 from engine.numeric.functions import functions
+from engine.numeric.remembered import remembered
 from engine.numeric.steerable import Place
 from engine.texture import sample
 from engine.texture.image import ImageSource
@@ -54,7 +54,7 @@ class Octave:
     slope: float
 
 
-@lru_cache(maxsize=16)
+@remembered
 def octave_of(source: ImageSource, arithmetic: int = LIBRARY) -> Octave:
     """Returns what continues a picture."""
     count = 3 if sample.coloured(source) else 1

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import ClassVar, TypeGuard
 from weakref import WeakValueDictionary
 
@@ -18,12 +17,12 @@ from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.grid import snapped
 from engine.numeric.parted import Raster
 from engine.numeric.pyramid import reduce
+from engine.numeric.remembered import remembered
 from engine.numeric.resample import resampled_rows
 from engine.texture.lean_planes import LeanPlanes, lean_of
 from engine.texture.raster import AT_ONCE, planes_of, row_bands, straight_of
 
 _STRIP = 64  # narrower images are repeated to this width before they are laid out
-_KEPT = 8  # pyramids held in memory
 _WHOLE = 16  # a picture enlarged beyond so many times its pixels is made piece by piece
 _NARROW = 1 << 12  # pixels from which on a picture is held in as few bits as tell it
 _BANDED = 1 << 20  # pixels from which on a picture is read and resampled part by part
@@ -73,6 +72,11 @@ class ImageSource:
         if held is None and self.pixels is not None:
             held = _HELD[sha] = self.pixels
         return ImageSource(self.name, sha, held)
+
+    @property
+    def told_apart(self) -> tuple[str, str, bool]:
+        """Tells it apart from others, without its pixels."""
+        return self.name, self.sha, self.there
 
     @property
     def there(self) -> bool:
@@ -144,7 +148,7 @@ def narrowed(data: np.ndarray) -> np.ndarray | LeanPlanes:
     return (lean_of(data) or data) if found is None else found
 
 
-@lru_cache(maxsize=64)
+@remembered
 def _opaque(source: ImageSource) -> bool:
     return all(bool((source.planes(band)[3] == 1.0).all()) for band in row_bands(source.width, source.height))
 
@@ -254,7 +258,7 @@ def _most(source: ImageSource) -> int:
     return _WHOLE * own if own <= _LARGE else _LARGE
 
 
-@lru_cache(maxsize=_KEPT)
+@remembered
 def picture_pyramid(source: ImageSource, period: int) -> tuple[np.ndarray, ...]:
     """S of a picture from its base level on, each twice as large as the one before: float32 (4, h, w) on the grid.
 

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -25,6 +24,7 @@ from engine.numeric.array_functions import array_functions
 from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.functions import functions
 from engine.numeric.hashing import fold_key
+from engine.numeric.remembered import remembered
 from engine.texture import sample
 from engine.texture.continuation import STEEPEST, octave_of
 from engine.texture.image import ImageSource, tiled
@@ -222,7 +222,7 @@ def weights(stages: int) -> tuple[float, ...]:
     return tuple(k / (stages - 1) for k in range(stages)) if stages > 1 else (0.0,)
 
 
-@lru_cache(maxsize=64)
+@remembered
 def stage(whole: ImageSource, stages: int, weight: float) -> ImageSource:
     """Returns one picture of a series: between two stages, their mean by the weight."""
     place = weight * (stages - 1)
@@ -235,7 +235,7 @@ def stage(whole: ImageSource, stages: int, weight: float) -> ImageSource:
     return ImageSource(whole.name, f"{whole.sha}/{stages}/{weight!r}", np.ascontiguousarray(data))
 
 
-@lru_cache(maxsize=64)
+@remembered
 def _alpha(picture: ImageSource) -> ImageSource:
     """Returns the alpha of a picture, as an opaque grey one."""
     data = np.ones((4, picture.height, picture.width), np.float32)
@@ -250,7 +250,7 @@ def _stretched(source: ImageSource, period: int, roughness: float, arithmetic: i
     return own.power(max(roughness, STEEPEST), own.log2(wide))
 
 
-@lru_cache(maxsize=256)
+@remembered
 def _form(picture: ImageSource, period: int, roughness: float, arithmetic: int) -> Continuation:
     """Tells how strong an octave is to the texture, and how large the features of both are."""
     tiles = [sample.tile(picture, period, arithmetic)]
@@ -267,7 +267,7 @@ def _form(picture: ImageSource, period: int, roughness: float, arithmetic: int) 
     return replace(loudest.form, strength=round(strength, 6), octave=_SIZE)
 
 
-@lru_cache(maxsize=1024)
+@remembered
 def _reach(picture: ImageSource, period: int, roughness: float, depth: int, arithmetic: int, renew: bool) -> float:
     """Tells how far octaves move the alpha of what is opaque or clear, at a depth beyond the native level."""
     form = _form(picture, period, roughness, arithmetic)

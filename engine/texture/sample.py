@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.array_functions import array_functions
 from engine.numeric.functions import functions
 from engine.numeric.pyramid import reduce
+from engine.numeric.remembered import remembered
 from engine.numeric.sparse import Impulse
 from engine.numeric.spectra import frequencies, radial_window
 from engine.texture.image import ImageSource, stretched
@@ -28,14 +28,14 @@ _SLIVER = 16  # a sample is not enlarged beyond so many times its pixels
 _FAINT = 1e-3  # an octave below this part of the strongest one's energy is empty
 
 
-@lru_cache(maxsize=64)
+@remembered
 def coloured(source: ImageSource) -> bool:
     """Tells whether the picture's channels differ."""
     parts = (source.planes(band) for band in row_bands(source.width, source.height)) if source.there else ()
     return any(not ((part[0] == part[1]).all() and (part[0] == part[2]).all()) for part in parts)
 
 
-@lru_cache(maxsize=1024)
+@remembered
 def finer(source: ImageSource, period: int, largest: int | None = None) -> int:
     """Tells how many levels finer than one on which the sample is `period` pixels wide its native level is; or
     coarser, < 0.
@@ -77,7 +77,7 @@ class Tile:
     form: Continuation
 
 
-@lru_cache(maxsize=16)  # of a series with alpha, two of each stage
+@remembered
 def tile(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> Tile:
     """Gives the pyramid of a sample that is tiled with a period in pixels of its base level; kept for the next call."""
     n = finer(source, period)
@@ -101,7 +101,7 @@ class Response:
     own: Impulse
 
 
-@lru_cache(maxsize=8)
+@remembered
 def sample_response(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> Response:
     """Returns the zero-mean sample under the radial Gaussian window."""
     native = _native(source, period, finer(source, period, LARGEST))
@@ -111,7 +111,7 @@ def sample_response(source: ImageSource, period: int, arithmetic: int = LIBRARY)
     return Response(_mean(native, arithmetic), Impulse.of(own))
 
 
-@lru_cache(maxsize=8)
+@remembered
 def finest(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> tuple[Impulse, Continuation]:
     """Returns the finest octaves of the impulse response, at the native level, and how they continue it.  Only who
     zooms in needs them."""
@@ -147,7 +147,7 @@ def _turned(planes: np.ndarray, turn: float, arithmetic: int) -> Iterator[np.nda
         yield found * np.float32(math.sqrt(held / left) if left > 0.0 else 0.0)
 
 
-@lru_cache(maxsize=4)
+@remembered
 def turned_responses(
     source: ImageSource, period: int, turn: float, arithmetic: int = LIBRARY, octave: bool = False
 ) -> tuple[Impulse, ...]:
@@ -156,7 +156,7 @@ def turned_responses(
     return tuple(map(Impulse.of, _turned(plain.phases[0, 0], turn, arithmetic)))
 
 
-@lru_cache(maxsize=8)
+@remembered
 def turned_seen(
     source: ImageSource, period: int, turn: float, coarser: int, arithmetic: int = LIBRARY
 ) -> tuple[Impulse, ...]:
@@ -172,7 +172,7 @@ def _windowed(planes: np.ndarray, arithmetic: int) -> np.ndarray:
     return out
 
 
-@lru_cache(maxsize=32)
+@remembered
 def seen(source: ImageSource, period: int, coarser: int, arithmetic: int = LIBRARY) -> Impulse:
     """Returns the impulse response some levels above the native one."""
     return sample_response(source, period, arithmetic).own.seen(coarser)

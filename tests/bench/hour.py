@@ -18,6 +18,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -75,7 +76,10 @@ def _watched(
         if not closing:
             pings.append(took)
             every.append(took)
-    program.wait(PAUSE)
+    with suppress(subprocess.TimeoutExpired):
+        program.wait(PAUSE)
+    while not told.empty():
+        yield told.get()
     yield verdict(rows, every, budget) | {"status": program.returncode}
 
 

@@ -23,17 +23,21 @@ STRIPS = ("history", "places", "analysis", "lab", "match", "examples", "")
 DEEPEST, FARTHEST = -3, 6  # levels that are painted on
 LAYERS = 6  # at most
 SPAN = 1600  # pixels of level 0, from 0, about which it is painted
+BEHIND = 64  # requests that wait for the engine, about a stroke's: with more, the hand sees that, and waits, too
+_LOOK = 0.05  # seconds from one look at it to the next
 
 Rests = Iterator[float]
 
 
 class RandomHand:
-    """The pointer of a window, instead of a mouse, and what else is done there; `folder`: of what is saved."""
+    """The pointer of a window, instead of a mouse, and what else is done there; `folder`: of what is saved; `waiting`
+    counts the requests that wait for the engine; `waited`: seconds that the hand did, as they were many."""
 
     name = "hand"
 
-    def __init__(self, desk: Desk, rng: np.random.Generator, folder: Path) -> None:
-        self._desk, self._rng, self._folder = desk, rng, folder
+    def __init__(self, desk: Desk, rng: np.random.Generator, folder: Path, waiting: Callable[[], int]) -> None:
+        self._desk, self._rng, self._folder, self._waiting = desk, rng, folder, waiting
+        self.waited = 0.0
         self._events: list[PenEvent] = []
         self.done: dict[str, int] = {}
         self._doings: tuple[tuple[float, Callable[[], Rests]], ...] = (
@@ -65,6 +69,9 @@ class RandomHand:
         """Does one thing after another, for ever."""
         weights = np.array([weight for weight, _ in self._doings])
         while True:
+            while self._waiting() > BEHIND:
+                self.waited += _LOOK
+                yield _LOOK
             doing = self._doings[self._rng.choice(len(weights), p=weights / weights.sum())][1]
             name = doing.__name__.strip("_")
             self.done[name] = self.done.get(name, 0) + 1

@@ -43,7 +43,9 @@ def main(seconds: float, seed: int, folder: Path) -> None:
     logging.getLogger("inkfall").addHandler(_Telling())
     sessions: list[Callable[[], Any]] = []
     window.connect(lambda before: _worker(window, before, sessions))
-    window.pointers.mouse = hand = RandomHand(window.desk, np.random.default_rng(seed), folder)
+    window.pointers.mouse = hand = RandomHand(
+        window.desk, np.random.default_rng(seed), folder, lambda: len(window.engine.worker._posted)
+    )
     try:
         until(window, lambda: window.desk.known.ready and window.desk.known.scene is not None)
         _say(ready=True, budget=memory.budget() >> 20, renderer=window.ctx.info["GL_RENDERER"])
@@ -51,9 +53,10 @@ def main(seconds: float, seed: int, folder: Path) -> None:
     finally:
         _say(closing=True)
         window.hide()
+        begun = time.monotonic()
         ended = window.engine.worker.close(60.0)
         window.close()
-        _say(ended=ended)
+        _say(ended=ended, took=round(time.monotonic() - begun, 1))
 
 
 def _worker(window: Window, before: Any, sessions: list[Callable[[], Any]]) -> workers.Worker:
@@ -83,7 +86,7 @@ def _paint(window: Window, hand: RandomHand, seconds: float, sessions: list[Call
                 dues[0] = max(dues[0], now - 0.1) + next(works)
             if now >= telling:
                 telling += TELL
-                _say(**_held(window, sessions), done=hand.done)
+                _say(**_held(window, sessions), waited=round(hand.waited, 1), done=hand.done)
                 told += 1
                 if told % SELDOM == 0 and HOLDERS in os.environ:
                     tell_holders(Path(os.environ[HOLDERS], f"{told}.json"))

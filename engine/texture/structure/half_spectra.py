@@ -6,14 +6,13 @@ any size will do.
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
 from engine.numeric import steerable
 from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.kernel import kernel
 from engine.numeric.real_fourier import irfft2, rfft2
+from engine.numeric.remembered import remembered
 from engine.numeric.steerable import Filters, Place
 
 _ORIENTATIONS = 4
@@ -51,7 +50,7 @@ def regridded(planes: np.ndarray, size: Size) -> np.ndarray:
     return irfft2(resized(rfft2(planes), planes.shape[2], size), size, True)
 
 
-@lru_cache(maxsize=64)
+@remembered
 def low_mask(size: Size) -> np.ndarray:
     """Gives the square of the low-pass of a grid (h, w//2 + 1): what its subbands and all coarser ones have of it."""
     high = steerable.filters(*size, 0, _ORIENTATIONS, EVERYWHERE).high
@@ -60,7 +59,7 @@ def low_mask(size: Size) -> np.ndarray:
     return out
 
 
-@lru_cache(maxsize=64)
+@remembered
 def octave_mask(size: Size) -> np.ndarray:
     """Gives what of a grid the next coarser one has not got (h, w//2 + 1)."""
     made = steerable.filters(*size, 1, _ORIENTATIONS, EVERYWHERE)
