@@ -55,7 +55,7 @@ class Room(Owned):
         self._settled = 0  # bytes resident then, or fewer since
         self._sparing = False  # whether pages of large arrays go back as soon as they are freed
         self._grown = False  # whether it is time for that again
-        self.aside: Callable[[], Iterable[Group]] = tuple  # older states of the layers that somebody keeps
+        self.aside: Iterable[Callable[[], Iterable[Group]]] = ()  # what tell of other states that somebody keeps
 
     def keep_within(self, root: Group) -> None:
         """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
@@ -86,10 +86,10 @@ class Room(Owned):
         self.history.tight = over > 0
         if over > 0:
             forget_made(over)
-            cache.shrink(max(cache.held - over, memory.cache_share() // 4, SMALLEST_CACHE))
+            cache.shrink(max(cache.held - over, min(memory.cache_share(), cache.budget) // 4, SMALLEST_CACHE))
             memory.give_back()
             over = memory.resident() - most
-        self._paging.want(root, cache.level, max(over, 0), self.aside())
+        self._paging.want(root, cache.level, max(over, 0), [state for told in self.aside for state in told()])
         return over
 
     def _page(self, crowded: bool) -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from engine.canvas.growth import Growth
+from engine.canvas.layers import Group
 from engine.checks.owned import Owned
 from engine.keeping import collecting
 from engine.numeric.address import Rect
@@ -40,6 +41,8 @@ class Easel(Owned):
         self.live: Live | None = None
         self.path: Path | None = None
         self.name = ""
+        self.aside: list[Callable[[], Iterable[Group]]] = []  # what tell of states that are kept beside the painting
+        self.session.room.aside = self.aside  # where memory is short, they go to disk before what is seen
         self.saved: object = self.session.state
         self.serial = 0
         self._growth = _NO_GROWTH
@@ -52,7 +55,7 @@ class Easel(Owned):
 
     def show(self, session: Session, path: Path | None, modified: bool = False) -> None:
         """Puts another painting on the easel; `modified`: it is another one than its file holds."""
-        session.heard = self.session.heard
+        session.heard, session.room.aside = self.session.heard, self.aside
         self.live, self.session = None, session
         self.path, self.name, self.saved = path, "", None if modified else session.state
         self.serial += 1

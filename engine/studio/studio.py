@@ -155,6 +155,7 @@ class Studio(Owned):
                 handle(request)
             else:
                 self._answers.carry_out(request, handle)
+            self._keep_within()
 
     def look(self, request: q.Look) -> None:
         """Takes over what is wanted on the screen."""
@@ -173,11 +174,15 @@ class Studio(Owned):
         row = next((row for row in self._rows if row.pending()), None)
         if row is not None:
             row.step()
-            session = self.easel.session
-            session.room.keep_within(session.painting.root)
+            self._keep_within()
             if self.holding is not None:
                 self.holding.tell()
         return row is not None
+
+    def _keep_within(self) -> None:
+        """Looks after the memory that it takes."""
+        session = self.easel.session
+        session.room.keep_within(session.painting.root)
 
     @property
     def due(self) -> float | None:

@@ -47,6 +47,7 @@ class Filing(Owned):
         self._script: Playing | None = None
         self._marks: tuple[Mark, ...] = ()  # of what is grown again
         self._writers = Writers(easel.send, post)
+        easel.aside.append(self._writers.roots)
         self.saves = Saves(easel, self._writers, preferences)
         self.turned: Turned = lambda head, continued, count: None
         self.openings = Openings(easel, post, self.replace)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from engine.canvas.layers import Group
 from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.painting.grown import settled
@@ -27,10 +28,11 @@ Ended = Callable[[results.Result | None], None]  # hears that, None if it failed
 
 @dataclass(eq=False, slots=True)
 class _File:
-    """A file on its way.  `saving`: it is the painting's own; `ended` is called when it is written or has failed;
-    `grown`: how far its painting is, 0..1."""
+    """A file on its way, of a `painting` as it was.  `saving`: it is the painting's own; `ended` is called when it is
+    written or has failed; `grown`: how far its painting is, 0..1."""
 
     thread: threading.Thread
+    painting: Painting
     saving: bool
     ended: Ended
     grown: float = 1.0
@@ -52,9 +54,13 @@ class Writers(Owned):
         thread = threading.Thread(
             target=_run, args=(self._count, write, painting, self._post, about), name="inkfall file", daemon=False
         )
-        self._files[self._count] = _File(thread, saving, ended)
+        self._files[self._count] = _File(thread, painting, saving, ended)
         self._tell()
         thread.start()
+
+    def roots(self) -> list[Group]:
+        """Returns the layers of all that is being written."""
+        return [file.painting.root for file in self._files.values()]
 
     def close(self) -> None:
         """Waits until all files are written; what their threads posted is still to be carried out."""

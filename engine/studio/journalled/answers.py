@@ -41,6 +41,7 @@ class Answers(Owned):
         self._parted = False  # whether points of the stroke were refused
         self._count = 0  # of the commands that the journal has of this painting
         self._beside = Beside(self._journal, lambda: posts.is_compiling(), lambda: posts.wake())
+        easel.aside.append(self._beside.roots)
         self._anew = Anew(self._beside.do, lambda: posts.wake())
         self.making: Callable[[], Recording | None] = lambda: None
         easel.session.heard = self._heard

@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from engine.archive.saving_turn import SAVING
-from engine.canvas.layers import pictured
+from engine.canvas.layers import Group, pictured
 from engine.checks.owned import Owned
 from engine.files.atomic import replacing
 from engine.files.fault import Cancelled, FileError
@@ -76,6 +76,7 @@ class Beside(Owned):
         self._is_compiling, self._wake = is_compiling, wake
         self._opened = Opened(journal, self.do, wake)
         self._writing: Future[_Ended] | None = None
+        self._written_of: Group | None = None  # the layers of which that is
         self._gives_way = True  # whether the next checkpoint does, to a save
         self._owed = 0.0  # `spent` before that one
         self._failures = 0  # to write one, in a row
@@ -89,6 +90,10 @@ class Beside(Owned):
         """A command was carried out."""
         self._seen = False
         self._opened.keep()
+
+    def roots(self) -> list[Group]:
+        """Returns the layers of what is being written."""
+        return [] if self._written_of is None else [self._written_of]
 
     def replaces(self, path: Path) -> Callable[[], None]:
         """A file is going to be written: has what was opened kept; returns what waits for that on any thread, if this
@@ -120,7 +125,7 @@ class Beside(Owned):
     def _written(self, ended: _Ended, now: float) -> None:
         """A checkpoint has ended.  One that gave way to a save, or as memory was short, is written after it, and then
         gives way to nothing."""
-        self._writing, took = None, ended.took
+        self._writing, self._written_of, took = None, None, ended.took
         self._gives_way = not ended.gave_way
         if ended.gave_way:
             self._next, self.spent = now + LULL, max(self.spent, self._owed)
@@ -143,6 +148,7 @@ class Beside(Owned):
         self._owed, self.spent, self._generation = self.spent, 0.0, self._generation + 1
         about = _Generation(self._generation, painting, count, self._closing.is_set, self._gives_way)
         wake = self._wake
+        self._written_of = painting.root
         self._writing = self._pool.submit(_checkpoint, self._journal, self._entry, about)
         self._writing.add_done_callback(lambda written: wake())
         return math.inf

@@ -33,6 +33,7 @@ class PastList(Owned):
         self._told: tuple[object, ...] = ()
         self._begin()
         self.handlers: Handlers = {p.ShowPast: self._show}
+        self._easel.aside.append(lambda: [] if self._tour is None else [self._tour.session.painting.root])
 
     def _begin(self) -> None:
         """Another painting is on the easel."""

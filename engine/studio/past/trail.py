@@ -21,10 +21,10 @@ class Trail(Owned):
     def __init__(self, easel: Easel) -> None:
         self.easel = easel
         self._begin(easel.session)
+        easel.aside.append(lambda: self.states.roots())
 
     def _begin(self, session: Session) -> None:
         self.session, self.states = session, KeptStates(session.base)
-        session.room.aside = self.states.roots  # where memory is short, they go to disk before what is seen
         self._logged, self._steps = 0, tuple[LoggedStep, ...]()
         self._rows: dict[int, tuple[LoggedStep, PastStep]] = {}
 

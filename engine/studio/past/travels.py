@@ -10,6 +10,7 @@ import time
 from dataclasses import dataclass, replace
 
 from engine.canvas import layers
+from engine.canvas.layers import Group
 from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.difference import areas
@@ -47,6 +48,7 @@ class Travels(Owned):
             p.Jump: lambda r: self._jump(r.number),
             p.StopJump: lambda r: self._stop(),
         }
+        self._easel.aside.append(self._seen_roots)
 
     @property
     def looking(self) -> int | None:
@@ -108,6 +110,11 @@ class Travels(Owned):
             raise
         if way.rebuilding.done:
             self._arrive(way)
+
+    def _seen_roots(self) -> list[Group]:
+        """Returns the layers of a state that is seen, and of one on the way."""
+        way = None if self._way is None else self._way.rebuilding.session.painting
+        return [painting.root for painting in (way, self._easel.viewer.looking) if painting is not None]
 
     def _look_back(self, request: p.LookBack) -> None:
         self._trail.follow()

@@ -24,6 +24,7 @@ from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.past import past_records as p
+from engine.studio.past import step_pictures as step_pictures_module
 from engine.studio.past.rebuilding import STEPS_APART, KeptStates
 from engine.studio.past.step_pictures import StepPainter
 from engine.studio.studio import Studio
@@ -221,7 +222,10 @@ def test_the_way_to_a_step_can_be_given_up_and_tells_how_far_it_is():
     assert np.array_equal(painted(asker.session), before)
 
 
-def test_every_step_has_a_picture_of_where_it_was_painted():
+@pytest.mark.parametrize("at_hand", [1 << 20, 0])
+def test_every_step_has_a_picture_of_where_it_was_painted(monkeypatch, at_hand):
+    """Also where it lies on disk."""
+    monkeypatch.setattr(step_pictures_module, "_AT_HAND", at_hand)
     asker = Asker(opened())
     asker.ask(p.ShowPast())
     steps = asker.scene.steps
@@ -236,6 +240,22 @@ def test_every_step_has_a_picture_of_where_it_was_painted():
     asker.ask(q.Do(STROKES[0]))
     asker.ask(p.ShowPast(True, (asker.scene.steps[-1].index,)))
     assert asker.scene.steps[-1].picture == step_pictures(asker)[-1].ident
+
+
+def test_states_beside_the_painting_are_told_to_who_looks_after_memory():
+    asker = Asker(opened())
+    asker.ask(p.LookBack(5))
+
+    def aside():
+        return [root for told in asker.session.room.aside for root in told()]
+
+    assert asker.easel.viewer.looking.root in aside()
+    asker.studio.do(p.Jump(3))
+    assert len(aside()) == 3  # what the log begins with, what is seen, and what is on the way
+    asker.work()
+    asker.easel.show(opened(), None)
+    asker.work()
+    assert aside() == [asker.session.base.root]
 
 
 def test_pictures_are_made_of_the_steps_in_sight_alone_and_again_when_it_is_opened_again():

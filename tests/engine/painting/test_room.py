@@ -1,13 +1,17 @@
 """What a session holds is kept within the budget, whatever comes and goes."""
 
+import numpy as np
 import pytest
 
+from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
+from engine.numeric.address import TileKey
 from engine.painting.value import Painting
 from engine.session import room as rooms
 from engine.session.history import History
 from engine.session.room import Room
+from engine.texture.planes import Planes
 
 MEGABYTE = memory.MEGABYTE
 
@@ -115,3 +119,12 @@ def test_the_more_is_taken_the_more_may_be_free_before_it_is_given_back(process)
     room._settled = 1600 * MEGABYTE
     assert not gives_back_at_rest(room, process, 1600, 90)
     assert gives_back_at_rest(room, process, 1600, 110)
+
+
+def test_a_small_cache_gives_way_too(process):
+    cache = TileCache(64 * MEGABYTE)
+    for n in range(60):
+        cache.adopt(Pyramid(), TileKey(0, n, 0), Planes(np.ones((4, 256, 256), np.float32)))
+    process.used = 500
+    Room(cache, History()).keep_within(Painting().root)
+    assert cache.held <= rooms.SMALLEST_CACHE
