@@ -19,7 +19,7 @@ from engine.brush.rim import Tiles
 from engine.brush.settings import Brush
 from engine.numeric import sparse
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.numeric.remembered import remembered
+from engine.numeric.memo import remembered
 from engine.numeric.spectra import radial_window
 from engine.texture.image import ImageSource
 from engine.texture.spectral import Sparse

@@ -25,8 +25,8 @@ from engine.numeric.curves import Shape
 from engine.numeric.elementary import log2
 from engine.numeric.hashing import fold_key, mix64
 from engine.numeric.kernel import Array, inlined, kernel
+from engine.numeric.memo import remembered
 from engine.numeric.pyramid import reduce
-from engine.numeric.remembered import remembered
 from engine.numeric.shaping import look_up, table
 from engine.texture.grey import LUMINANCE, grey
 from engine.texture.image import ImageSource, stretched

@@ -22,8 +22,8 @@ from engine.makers import with_structure
 from engine.makers.lewis import SAMPLE_CAP, Pictures, Sample, flattened
 from engine.numeric.colour_axes import axes_of
 from engine.numeric.grid import snapped
+from engine.numeric.memo import remembered
 from engine.numeric.pyramid import reduce
-from engine.numeric.remembered import remembered
 from engine.numeric.resample import resampled
 from engine.painting.commands import SEED_LIMIT
 from engine.texture.adjusting import GAIN_CAP, Band, adjusted

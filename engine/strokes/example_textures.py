@@ -25,7 +25,7 @@ from engine.files.fault import FileError
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba16
-from engine.numeric.remembered import remembered
+from engine.numeric.memo import remembered
 from engine.painting import commands as c
 from engine.painting.capture import read_straight
 from engine.painting.textures import Around, Texture

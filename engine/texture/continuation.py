@@ -23,7 +23,7 @@ from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.array_functions import array_functions
 from engine.numeric.colour_axes import ColourAxes, combined
 from engine.numeric.functions import functions
-from engine.numeric.remembered import remembered
+from engine.numeric.memo import remembered
 from engine.numeric.steerable import Place
 from engine.texture import sample
 from engine.texture.image import ImageSource

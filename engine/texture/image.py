@@ -15,9 +15,9 @@ import numpy as np
 from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.grid import snapped
+from engine.numeric.memo import remembered
 from engine.numeric.parted import Raster
 from engine.numeric.pyramid import reduce
-from engine.numeric.remembered import remembered
 from engine.numeric.resample import resampled_rows
 from engine.texture.lean_planes import LeanPlanes, lean_of
 from engine.texture.raster import AT_ONCE, planes_of, row_bands, straight_of

@@ -24,7 +24,7 @@ from engine.numeric.array_functions import array_functions
 from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.functions import functions
 from engine.numeric.hashing import fold_key
-from engine.numeric.remembered import remembered
+from engine.numeric.memo import remembered
 from engine.texture import sample
 from engine.texture.continuation import STEEPEST, octave_of
 from engine.texture.image import ImageSource, tiled

@@ -15,8 +15,8 @@ import numpy as np
 from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.array_functions import array_functions
 from engine.numeric.functions import functions
+from engine.numeric.memo import remembered
 from engine.numeric.pyramid import reduce
-from engine.numeric.remembered import remembered
 from engine.numeric.sparse import Impulse
 from engine.numeric.spectra import frequencies, radial_window
 from engine.texture.image import ImageSource, stretched

@@ -7,7 +7,7 @@ from typing import Protocol
 from engine.archive.shelves.filed_pages import PAGES_READ
 from engine.archive.shelves.shelf import DECODED
 from engine.canvas.attenuate import RENEWED
-from engine.numeric.remembered import REMEMBERED
+from engine.numeric.memo import REMEMBERED
 from engine.session.coding.coded_records import RECORDS_MADE, SHEETS_MADE
 from engine.session.coding.coded_tiles import TILES_MADE
 from engine.texture.expression.kept_squares import SQUARES

@@ -11,8 +11,8 @@ import numpy as np
 from engine.numeric import steerable
 from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.kernel import kernel
+from engine.numeric.memo import remembered
 from engine.numeric.real_fourier import irfft2, rfft2
-from engine.numeric.remembered import remembered
 from engine.numeric.steerable import Filters, Place
 
 _ORIENTATIONS = 4

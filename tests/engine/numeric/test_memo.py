@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from engine.numeric import remembered as module
+from engine.numeric import memo as module
 from engine.numeric.recent import Recent
 from engine.session.coding.made_again import forget_made, made_held
 from engine.texture.image import ImageSource

@@ -38,7 +38,7 @@ def remembered(make: Callable[_P, _Made]) -> Callable[_P, _Made]:
     return known_or_made
 
 
-def _told(argument: Any) -> Hashable:
+def _told(argument: object) -> Hashable:
     found: Hashable = getattr(argument, "told_apart", argument)
     return found
 
