@@ -38,6 +38,10 @@ class Drawing:
         self._carried: SheetPlan | None = None
         self.drawn = False
 
+    def begin(self, desk: Desk, now: float) -> None:
+        """Has the card begin with the land, which it fills beside what the panels are laid out in."""
+        self._land.begin(desk, now)
+
     def draw(self, desk: Desk, now: float, fresh: Set[int], exposed: bool) -> bool:
         """Draws what imgui shows over the canvas, if anything is to be seen that is not on the screen, or if that was
         `exposed`; True while something fades.  `fresh`: the textures that show something else now."""
@@ -79,11 +83,12 @@ class Drawing:
             self._flown = False
             self._land.forget()
             return self.draw(desk, now, fresh, True)
+        if told:
+            self._overlay.redraw(data)
         changed = self._land.draw(desk, now)
         self.drawn = changed or told or exposed or not self._flown
         self._flown = True
         if self.drawn:
-            self._overlay.redraw(data)
             self._land.show(desk)
             self._overlay.draw(data)
             self._send(desk)

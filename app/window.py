@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -81,6 +81,13 @@ def _resize(desk: Desk, ctx: moderngl.Context, width: int, height: int) -> None:
         desk.view = desk.view.resized(width, height)
         ctx.screen.viewport = (0, 0, width, height)
         ctx.viewport = (0, 0, width, height)
+
+
+def _flush() -> Callable[[], None]:
+    """Returns OpenGL's own, which moderngl has not."""
+    address = ctypes.cast(glfw.get_proc_address("glFlush"), ctypes.c_void_p).value or 0
+    flush: Callable[[], None] = ctypes.CFUNCTYPE(None)(address)
+    return flush
 
 
 def _typed() -> str | None:
@@ -160,7 +167,7 @@ class Window:
         self.tiles, self.gallery = Tiles(self.screen), Gallery(self.ctx, self.desk.pictures)
         self._solid, self._land = SolidView(self.ctx, self.gallery), LandWants()
         self._drawing, self._decoration = (
-            Drawing(handle, self.screen, Overlay(self.ctx), LandScreen(self.ctx)),
+            Drawing(handle, self.screen, Overlay(self.ctx), LandScreen(self.ctx, _flush())),
             Decoration(handle),
         )
         self.news = News(self.desk, self._guard, self._hearers, self.layout.hearers)
@@ -244,6 +251,7 @@ class Window:
             going.watch(desk, now)
             self._views.watch(desk, now)
             self._remembering.watch(desk, now)
+            self._land.begin(desk, now, self._drawing)
         self._panels()
         with spare("asking for what is to be seen"):
             if desk.known.ready:

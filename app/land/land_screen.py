@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 
 import moderngl
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from app.canvas.renderers import fills_pixels
 from app.canvas.shader_files import shader_source
 from app.desk.desk import Desk
-from app.desk.land.land_state import LandState
+from app.desk.land.land_state import QUICK, LandState
 from app.land.still_fade import StillFade
 from engine.terrain.seen.choosing import Anchor, LandSight, anchor
 from engine.terrain.seen.land_tiles import (
@@ -34,6 +35,8 @@ _BORN = 0.35  # seconds in which a tile that has come parts from its parent's me
 _WHOLE = TEXELS + 2 * TEXEL_RIM
 _COARSE = 0.75  # of width and height, that are drawn while the eye moves where the processor fills the pixels
 _STOPS = 0.12  # seconds without a move after which all pixels are
+_WAITED = 0.0005  # seconds: pixels that were waited for no longer may have been filled long before
+_AT_ONCE = 16  # tiles that a software renderer is told of before it fills their pixels, beside what comes next
 _SETTLES = 1.0  # seconds after the last tile that has come, in which neighbours may still show another painting
 _SKY = 24, 16  # columns and rows of the sky's corners
 _BARE = 6 * QUADS * QUADS  # corners of a tile's triangles but for its skirts'
@@ -82,10 +85,10 @@ class _Target:
 
 
 class LandScreen:
-    """All calls from the thread that owns the context."""
+    """All calls from the thread that owns the context.  `flush`: has the card begin with what it was told."""
 
-    def __init__(self, ctx: moderngl.Context) -> None:
-        self._ctx = ctx
+    def __init__(self, ctx: moderngl.Context, flush: Callable[[], None] = lambda: None) -> None:
+        self._ctx, self._flush = ctx, flush
         self._sources = shader_source("terrain.vert"), shader_source("terrain.frag")
         self._sky_sources = shader_source("sky.vert"), shader_source("sky.frag")
         self._slow = fills_pixels(ctx.info["GL_RENDERER"])
@@ -96,21 +99,36 @@ class LandScreen:
         self._targets: dict[float, _Target] = {}  # by the part of width and height that they have
         self._part = 1.0  # of the last picture
         self._moves = False
+        self._began: float | None = None  # when the picture that is on its way was
+
+    def begin(self, desk: Desk, now: float) -> None:
+        """Has the land drawn anew if it has changed: its pixels are filled beside what is done before `draw`."""
+        state = desk.land
+        if state.eye is None or min(state.size) < 8:
+            return
+        part = _COARSE if self._slow and now - state.moved < _STOPS else 1.0
+        if state.changed or (self._began is None and (self._moves or part > self._part)):
+            self._began = time.perf_counter()
+            self._picture(state, now, part)
+            self._flush()
+            state.changed = False
 
     def draw(self, desk: Desk, now: float) -> bool:
-        """Draws the land anew if it has changed; True if the window is to be drawn again."""
+        """Sees to it that the land is drawn as it is now; True if the window is to be drawn again."""
         state = desk.land
         if state.eye is None or min(state.size) < 8:
             return False
         fresh = self._fade.follow(state, now)
-        part = _COARSE if self._slow and now - state.moved < _STOPS else 1.0
-        if state.changed or self._moves or part > self._part:
-            began = time.perf_counter()
-            self._picture(state, now, part)
-            self._ctx.finish()
-            state.adapt(time.perf_counter() - began)
-            state.changed, fresh = False, True
-        return fresh
+        self.begin(desk, now)
+        if self._began is None:
+            return fresh
+        before = time.perf_counter()
+        self._ctx.finish()
+        after = time.perf_counter()
+        took = after - self._began
+        state.adapt(took if after - before > _WAITED else min(took, QUICK))
+        self._began = None
+        return True
 
     @property
     def moving(self) -> bool:
@@ -179,7 +197,9 @@ class LandScreen:
         hangs = state.lacking > 0 or self._moves or now - state.taken < _SETTLES
         corners = 3 * len(triangles()) if hangs else _BARE
         state.triangles = corners // 3 * len(held)
-        for key, kept in held:
+        for n, (key, kept) in enumerate(held):
+            if n % _AT_ONCE == _AT_ONCE - 1:
+                self._flush()
             placed, card = at.place(key, kept.tile.base, sight), self._on_card(program, kept.tile)
             program["corner"], program["sides"] = placed.corner, (placed.step, placed.unit)
             program["morphs"] = placed.begins, placed.ends, max(0.0, 1.0 - (now - kept.came) / _BORN)

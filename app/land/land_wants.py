@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import Protocol
 
 from app.desk.desk import Desk, Hear
 from app.desk.land.land_above import follow_canvas
@@ -12,11 +13,20 @@ from engine.studio import results
 from engine.studio.land.land_records import AskGround, AskLand, AskStill, GroundFound, LandMade, StillCome
 from engine.terrain.seen.choosing import FINEST, choose_tiles
 from engine.terrain.seen.eye import Eye, place_kept
+from engine.terrain.seen.land_tiles import TileKey
 
 ASKED_AT_ONCE = 48  # tiles that are asked for at a time
 RESTS_AFTER = 0.25  # seconds without a move after which the picture at rest is asked for
 _FOLLOWS = 0.1  # seconds after which the canvas follows what is seen of the land: a ray a frame would be dear
 _WIDE = 1.0  # of the window's width, of the land that is seen in the middle at first
+
+
+class Begins(Protocol):
+    """What fills pixels."""
+
+    def begin(self, desk: Desk, now: float) -> None:
+        """Begins with those of the land."""
+        ...
 
 
 class LandWants:
@@ -27,12 +37,36 @@ class LandWants:
         self._still: tuple[object, ...] = ()
         self._serial: int | None = None
         self._followed, self._behind = -_FOLLOWS, False
+        self._lacking: list[TileKey] = []
+        self._chosen = False  # whether tiles were, that are not asked for yet
         self.hears: dict[type, Hear] = {
             LandMade: _made,
             GroundFound: self._ground,
             StillCome: _still,
             results.Scene: self._scene,
         }
+
+    def sees(self, desk: Desk) -> None:
+        """Chooses the tiles of the next picture, if that is to be another one."""
+        state = desk.land
+        left, top, right, bottom = (round(inset) for inset in desk.insets)
+        room = left, top, max(1, desk.view.width - left - right), max(1, desk.view.height - top - bottom)
+        if room != state.room:
+            state.room, state.changed, state.still = room, True, None
+        if desk.known.scene is not None and desk.known.scene.frame != state.frame:
+            state.frame, state.changed = desk.known.scene.frame, True
+        if state.eye is not None and state.changed:
+            found = choose_tiles(state.sight(), {key: kept.tile for key, kept in state.kept.items()})
+            state.drawn, state.lacking = found.drawn, len(found.lacking)
+            state.use(found.wanted)
+            self._lacking = found.lacking[:ASKED_AT_ONCE]
+            self._behind = self._chosen = True
+
+    def begin(self, desk: Desk, now: float, drawing: Begins) -> None:
+        """Has the land's pixels filled beside what comes next; while one paints, the newest tile is still to come."""
+        if desk.land.on and desk.known.ready and not desk.painting:
+            self.sees(desk)
+            drawing.begin(desk, now)
 
     def wants(self, desk: Desk, now: float) -> None:
         """Posts what is lacking."""
@@ -44,18 +78,13 @@ class LandWants:
                 desk.post(AskStill(state.number))
                 state.forget()
             return
-        left, top, right, bottom = (round(inset) for inset in desk.insets)
-        room = left, top, max(1, desk.view.width - left - right), max(1, desk.view.height - top - bottom)
-        if room != state.room:
-            state.room, state.changed, state.still = room, True, None
-        if desk.known.scene is not None and desk.known.scene.frame != state.frame:
-            state.frame, state.changed = desk.known.scene.frame, True
+        self.sees(desk)
         if state.eye is None:
             self._place(desk)
             return
-        if state.changed:
-            self._tiles(desk)
-            self._behind = True
+        if self._chosen:
+            self._chosen = False
+            self._ask(desk)
         if self._behind and not desk.painting and now - self._followed >= _FOLLOWS:
             self._followed, self._behind = now, False
             follow_canvas(desk)
@@ -74,14 +103,9 @@ class LandWants:
             self._asked = (ask,)
             desk.post(ask)
 
-    def _tiles(self, desk: Desk) -> None:
-        state = desk.land
-        found = choose_tiles(state.sight(), {key: kept.tile for key, kept in state.kept.items()})
-        state.drawn, state.lacking = found.drawn, len(found.lacking)
-        state.use(found.wanted)
-        wanted = [(key, -1) for key in found.lacking[:ASKED_AT_ONCE]]
-        wanted += [(key, state.kept[key].revision) for key in found.drawn]
-        asked = tuple(wanted)
+    def _ask(self, desk: Desk) -> None:
+        kept = desk.land.kept
+        asked = *((key, -1) for key in self._lacking), *((key, kept[key].revision) for key in desk.land.drawn)
         if asked != self._asked:
             self._asked = asked
             desk.post(AskLand(asked))

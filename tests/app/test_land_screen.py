@@ -50,6 +50,23 @@ def test_the_ground_has_the_colours_of_the_picture_at_rest(context, state, shade
     assert np.abs(pixels.astype(int) - developed(light, 1).astype(int)).max() <= 1
 
 
+def test_what_is_begun_is_drawn_beside_other_things_and_once(context, state, monkeypatch):
+    hold(state, 60)
+    flushed, times = [], []
+    monkeypatch.setattr(LandState, "adapt", lambda state, seconds: times.append(seconds))
+    screen, desk = LandScreen(context, lambda: flushed.append(1)), SimpleNamespace(land=state)
+    screen.begin(desk, 9.0)
+    assert flushed
+    assert not state.changed
+    begun = screen.picture()
+    assert screen.draw(desk, 9.0)
+    assert screen.picture() == begun
+    assert len(times) == 1
+    screen.begin(desk, 9.1)
+    assert not screen.draw(desk, 9.1)
+    assert len(times) == 1
+
+
 def test_where_the_processor_fills_pixels_they_are_fewer_as_long_as_the_eye_moves(context, state, monkeypatch):
     hold(state, 128)
     screen, desk = LandScreen(context), SimpleNamespace(land=state)
