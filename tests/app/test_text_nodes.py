@@ -3,8 +3,10 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from imgui_bundle import ImVec2
 
 from app.desk.workshop.text_nodes import Slot, text_nodes
+from app.panels.workshop.node_layout import legible
 from engine.studio.workshop.language_words import language_words
 from engine.texture.expression.defined import expression
 from engine.texture.expression.language import read
@@ -127,3 +129,10 @@ def test_a_function_that_is_added_is_right_as_it_stands(word):
 
 def test_a_slot_tells_its_number():
     assert Slot(0, "- 0.5", "number").number == -0.5
+
+
+def test_where_all_nodes_are_too_small_to_be_read_the_last_ones_are_shown():
+    boxes = [(ImVec2(x, 0), ImVec2(x + 90, 60)) for x in (0, 200, 100, 300)]
+    assert legible(boxes, ImVec2(400, 100)) == (3, 1, 2, 0)
+    assert legible(boxes, ImVec2(290, 100)) == (3, 1, 2)
+    assert legible(boxes, ImVec2(100, 20)) == (3,)

@@ -8,7 +8,7 @@ from immutables import Map
 
 from app.desk.workshop.explained import explained
 from app.desk.workshop.workshop_state import USUALLY, TextTold, WorkshopState
-from app.desk.workshop.workshop_work import ReadText, WriteText
+from app.desk.workshop.workshop_work import ReadText, WriteText, own_path
 from app.panels.workshop import text_colours as colours
 from app.panels.workshop.completing import Offer, accepted, function_around, offers, word_before
 from engine.brush.ink import resolve
@@ -47,6 +47,8 @@ def test_a_word_is_completed_by_what_begins_with_it_then_by_what_holds_it():
 def test_a_texture_is_found_by_its_name_by_what_it_is_called_and_in_quotes():
     assert [offer.text for offer in offers("roo", WORDS, ())] == ['"rooftops"(', '"clay-tiles"(']
     assert offers('"mo', WORDS, {"moist"})[0].text == '"moss"('
+    whole = offers("dark", WORDS, {"dark"})  # may stand as it is: no texture that is told of with that word
+    assert not whole or {offer.text[:4] for offer in whole} == {"dark"}
     assert offers('"', WORDS, {"wall"}, ["mine"])[0].text == '"mine"('
     assert {offer.text[0] for offer in offers("m", WORDS, ())} == {"m"}
 
@@ -149,6 +151,14 @@ def test_a_text_comes_back_from_its_file_with_its_period(tmp_path):
     (tmp_path / "bad.txt").write_bytes(b"\xff\xfe")
     with pytest.raises(OSError, match="UTF-8"):
         ReadText(tmp_path / "bad.txt").carry_out()
+
+
+@pytest.mark.parametrize(
+    ("name", "stem"),
+    [("My roof", "My roof"), (" a/b: c. ", "a-b- c"), ("", "Written"), ("…", "Written"), ("x" * 99, "x" * 60)],
+)
+def test_a_text_is_kept_under_its_name_as_far_as_files_may_have_it(name, stem):
+    assert own_path(name).name == f"{stem}.inktexture"
 
 
 WAVES = {"stripes": Stripes, "sawtooth": Sawtooth, "squares": Squares}

@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 import platformdirs
 
 from app.desk.desk import Desk, FileWork
-from app.desk.workshop.workshop_state import USUAL_PERIOD, TextTold
+from app.desk.workshop.workshop_state import USUAL_PERIOD, WRITTEN, TextTold
 from engine.texture.expression.library.bundled_texts import generator_library, written_library
 from engine.texture.expression.library.lesson_texts import lessons
 from engine.texture.expression.written import STAGES_LEAST, STAGES_MOST, USUAL_STAGES
@@ -17,12 +17,24 @@ from engine.texture.expression.written import STAGES_LEAST, STAGES_MOST, USUAL_S
 TEXT = ".inktexture"  # the ending of a written texture
 TEXTS = (TEXT, ".txt")
 _BYTES_MOST = 1 << 16
+_LONGEST = 60  # letters of a name
 _TOLD = re.compile(r"^// (period|stages) (\d+(?:\.\d+)?)[ \t]*\n", re.MULTILINE)
 
 
 def own_texts() -> Path:
     """Tells where written textures are kept."""
     return platformdirs.user_data_path("inkfall") / "textures"
+
+
+def own_path(name: str) -> Path:
+    """Returns the file in which a texture of one's own is kept, called as it is as far as files may be."""
+    return own_texts() / f"{text_stem(name)}{TEXT}"
+
+
+def text_stem(name: str) -> str:
+    """Returns a texture's name as its file may be called."""
+    told = "".join(ch if ch.isalnum() or ch in " -_" else "-" for ch in " ".join(name.split()))
+    return told[:_LONGEST].strip(" -") or WRITTEN
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +106,8 @@ class WriteText(FileWork):
     def arrive(self, desk: Desk, found: tuple[str, ...]) -> None:
         """Tells it."""
         desk.workshop.files, desk.workshop.name = found, self.path.stem
-        desk.say(f"Kept the texture “{self.path.stem}”")
+        kept = self.path.parent == own_texts()
+        desk.say(f"Kept “{self.path.stem}” among your textures" if kept else f"Wrote {self.path.name}")
 
 
 def keep_text(desk: Desk, path: Path) -> None:

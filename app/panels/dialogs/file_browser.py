@@ -30,7 +30,7 @@ from app.desk.previews import FileRow
 from app.desk.proofing.proof_work import PROFILES
 from app.desk.sharing.preset_work import BRUSH, BRUSHES, SharePreset, bring_preset
 from app.desk.solids.cube_work import CUBES, DRAWABLE, bring_cube
-from app.desk.workshop.workshop_work import TEXT, TEXTS, ReadText, keep_text
+from app.desk.workshop.workshop_work import TEXT, TEXTS, ReadText, keep_text, text_stem
 from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
@@ -268,9 +268,9 @@ def choosing_text(desk: Desk) -> SystemDialog | Browser:
 
 
 def writing_text(desk: Desk) -> SystemDialog | Browser:
-    """Asks where to keep the texture that is in the workshop."""
-    name = f"{stem_of(desk.workshop.name or 'Written')}{TEXT}"
-    return _chooser(desk, "Keep a written texture", (TEXT,), keep_text, name)
+    """Asks where to write the texture that is in the workshop, for others."""
+    name = f"{text_stem(desk.workshop.name)}{TEXT}"
+    return _chooser(desk, "Share a written texture", (TEXT,), keep_text, name)
 
 
 def choosing_mesh(desk: Desk) -> SystemDialog | Browser:

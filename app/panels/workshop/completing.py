@@ -64,6 +64,8 @@ def offers(word: str, words: WorkshopWords, own: Iterable[str], textures: Iterab
     begins = [row for row in rows if row.name.lower().startswith(low)]
     holds = [row for row in rows if row not in begins and low in f"{row.name} {row.about}".lower()]
     holds = [row for row in holds if low in row.name.lower() or row.text[0] == _QUOTE] if len(low) > 1 else []
+    if any(row.name == word for row in begins):  # it may stand as it is: what only tells of it is in the way
+        holds = []
     found = (*begins, *sorted(holds, key=lambda row: low not in row.name.lower()))
     return () if [row.name for row in found] == [word] else found
 

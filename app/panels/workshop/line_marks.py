@@ -92,7 +92,8 @@ def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
     samples = samples_told(line.samples)
     text = f"{line.cost:,.0f} ns a pixel, {samples}"
     about = f"{line.least:.2f} … {line.most:.2f}"
-    high = side + 3 * imgui.get_text_line_height_with_spacing()
+    beyond = () if line.coloured else ("Blue is below 0",) * (line.least < 0) + ("Orange is above 1",) * (line.most > 1)
+    high = side + (3 + len(beyond)) * imgui.get_text_line_height_with_spacing()
     wide = max(side, said.calc_text_size(text).x, said.calc_text_size(line.name).x)
     imgui.set_next_window_size(ImVec2(wide, high) + padding * 2)
     if imgui.begin_tooltip():
@@ -101,4 +102,6 @@ def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
         said.text_unformatted(line.name or "the texture")
         said.text_disabled(about)
         said.text_disabled(text)
+        for told in beyond:
+            said.text_disabled(told)
         imgui.end_tooltip()

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
+
+from imgui_bundle import ImVec2
 
 from app.desk.workshop.text_nodes import LineNode, NodeRow, Piece, Slot, TextNodes
 
@@ -79,3 +82,24 @@ def slots_of(found: TextNodes) -> list[tuple[LineNode, Slot, tuple[str, int, int
         for m, piece in enumerate(row.pieces)
         if isinstance(piece, Slot)
     ]
+
+
+def legible(boxes: Sequence[tuple[ImVec2, ImVec2]], room: ImVec2) -> tuple[int, ...]:
+    """Returns which nodes, corners and ends, fit into a room together: the last one, and those nearest to the left."""
+    corner, end = boxes[-1]
+    shown = [len(boxes) - 1]
+    for n in sorted(range(len(boxes) - 1), key=lambda n: -boxes[n][1].x):
+        low, high = _least(corner, boxes[n][0]), _most(end, boxes[n][1])
+        if high.x - low.x > room.x or high.y - low.y > room.y:
+            break
+        corner, end = low, high
+        shown.append(n)
+    return tuple(shown)
+
+
+def _least(a: ImVec2, b: ImVec2) -> ImVec2:
+    return ImVec2(min(a.x, b.x), min(a.y, b.y))
+
+
+def _most(a: ImVec2, b: ImVec2) -> ImVec2:
+    return ImVec2(max(a.x, b.x), max(a.y, b.y))

@@ -16,11 +16,12 @@ from app.panels.controls.colour_popup import colour_popup
 from app.panels.workshop import text_colours
 from app.panels.workshop.line_marks import line_corners
 from app.panels.workshop.node_canvas import OUT, NodeCanvas
-from app.panels.workshop.node_layout import NUMBER_WIDE, broken_rows, first_places, node_width, slots_of
+from app.panels.workshop.node_layout import NUMBER_WIDE, broken_rows, first_places, legible, node_width, slots_of
 from app.panels.workshop.node_menus import TIDY, NodeMenus
 
 _WHOLE = frozenset(("octaves", "seed", "corners", "n"))  # values that are whole numbers
 _PICTURE = ImVec2(2.4, 1.5)  # letters' sizes
+_LEAST = 0.62  # of a node's size: below that letters are hard to read
 _FRAMES = 4  # until the sizes of nodes are known, and all are in sight
 _SOLO = "Click to look at this line alone"
 _NUMBER = "Drag to change it, or Ctrl+click to type"
@@ -65,7 +66,7 @@ class NodeView:
         ed.resume()
         self._fit = max(0, self._fit - 1)
         if self._fit == 2:
-            ed.navigate_to_content(0.0)
+            self._into_sight(found, size)
         ed.end()
         if chosen == TIDY:
             self._lying.clear()
@@ -82,6 +83,20 @@ class NodeView:
             if name in new:
                 ed.set_node_position(ed.NodeId(self._canvas.id("node", name)), ImVec2(at.x, at.y) * size)
         self._lying, self._fit = names, _FRAMES if first else self._fit
+
+    def _into_sight(self, found: TextNodes, size: ImVec2) -> None:
+        """Shows all nodes; where these are too small to be read, the texture's and as many before it as can be."""
+        ids = [ed.NodeId(self._canvas.id("node", node.name)) for node in found.nodes]
+        corners = [ed.get_node_position(one) for one in ids]
+        boxes = [(at, at + ed.get_node_size(one)) for one, at in zip(ids, corners, strict=True)]
+        shown = legible(boxes, size * (1 / _LEAST))
+        if len(shown) == len(ids):
+            ed.navigate_to_content(0.0)
+            return
+        for number in shown:
+            ed.select_node(ids[number], append=True)
+        ed.navigate_to_selection(True, 0.0)
+        ed.clear_selection()
 
     def _node(self, desk: Desk, found: TextNodes, number: int, node: LineNode) -> None:
         size = imgui.get_font_size()

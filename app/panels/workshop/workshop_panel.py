@@ -17,6 +17,7 @@ from app.desk.workshop.workshop_work import TEXTS, ReadText
 from app.language import said
 from app.panels.controls import widgets as w
 from app.panels.panel import Panel
+from app.panels.workshop.keeping_texts import KeepText
 from app.panels.workshop.line_marks import LineMarks
 from app.panels.workshop.node_view import NodeView
 from app.panels.workshop.text_field import FieldShown, TextField
@@ -34,6 +35,10 @@ from engine.studio.workshop.workshop_records import (
 
 _STROKE = (112, 48)  # points of the picture of a stroke
 _TOLD = 3  # rows of what is told below the text
+_OF_TEXT = "Click a picture to look at a line alone; Ctrl+Space tells what may be written"
+_OF_NODES = (
+    "Drag from a right end into another line; a right click adds a line, removes one or cuts a link; the wheel zooms"
+)
 _SETTLE = 0.4  # seconds from one picture of a stroke to the next
 _USES = (
     ("ink", icons.BRUSH, "Use as ink", "The brush paints with this texture"),
@@ -47,6 +52,7 @@ class WorkshopPanel(Panel):
 
     def __init__(self) -> None:
         self._field, self._marks, self._view = TextField(), LineMarks(), TextureView()
+        self._keep = KeepText()
         self._nodes, self._written_as = NodeView(), ""  # what the field had when nodes were drawn last
         self._following, self._first = Following(_SETTLE), True
         self.hears = {WorkshopScene: _heard, WorkshopWords: _words, WorkshopValues: _values}
@@ -64,7 +70,7 @@ class WorkshopPanel(Panel):
     def bar(self, desk: Desk) -> None:
         """Draws which texts there are, and undo, in the strip's title line."""
         imgui.same_line(0, 14 * desk.scale)
-        draw_texts(desk, self._field)
+        draw_texts(desk, self._field, self._keep)
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
@@ -119,7 +125,7 @@ class WorkshopPanel(Panel):
         function = self._field.function(desk.workshop.words)
         imgui.push_style_color(imgui.Col_.text, theme.vec(theme.look.quiet))
         if function is None and mistake is None:
-            said.text_wrapped("Click a picture to look at a line alone; Ctrl+Space tells what may be written")
+            said.text_wrapped(_OF_NODES if desk.workshop.nodes else _OF_TEXT)
         elif function is not None and mistake is None:
             said.text_wrapped(f"{function.form}: {function.about}")
         elif function is not None:

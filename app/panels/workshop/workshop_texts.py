@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import PurePath
 
 from imgui_bundle import imgui
@@ -14,13 +15,14 @@ from app.desk.workshop.explained import explained
 from app.desk.workshop.workshop_work import ListTexts, ReadText
 from app.language import said
 from app.panels.controls import widgets as w
+from app.panels.workshop.keeping_texts import KeepText
 from app.panels.workshop.text_field import TextField
 from engine.texture.expression.library.bundled_texts import LibraryText
 
 _LETTERS = 18  # of a text's name: the button is as wide whatever it is called
 
 
-def draw_texts(desk: Desk, field: TextField) -> None:
+def draw_texts(desk: Desk, field: TextField, keep: KeepText) -> None:
     """Draws it into the title line."""
     state, gap = desk.workshop, 2 * desk.scale
     if state.files is None:
@@ -39,8 +41,7 @@ def draw_texts(desk: Desk, field: TextField) -> None:
     if w.icon_button("open text", icons.FOLDER, "Open a texture that was written: its file may be dropped here, too"):
         desk.asked.show("texture text")
     imgui.same_line(0, gap)
-    if w.icon_button("keep text", icons.DISK, "Keep it as a small file, which others can open", enabled=state.right):
-        desk.asked.show("texture text to")
+    keep.draw(desk)
     imgui.same_line(0, gap)
     hint = "Explain: what the brush paints with, as a text, as far as the language has words for it"
     if w.icon_button("explain brush", icons.BRUSH, hint, enabled=bool(mixed_now(desk.hand).ink)):
@@ -72,9 +73,10 @@ def _menu(desk: Desk) -> None:
     if not imgui.begin_popup("texts"):
         return
     state = desk.workshop
-    half = -(-len(state.library) // 2)
-    lists: tuple[tuple[str, tuple[LibraryText, ...]], ...] = (
-        *(("Lessons", state.lessons), ("Textures", state.library[:half]), ("", state.library[half:])),
+    library = sorted(state.library, key=lambda one: one.title)
+    half = -(-len(library) // 2)
+    lists: tuple[tuple[str, Sequence[LibraryText]], ...] = (
+        *(("Lessons", state.lessons), ("Textures", library[:half]), ("", library[half:])),
         ("Along a stroke", state.generators),
     )
     imgui.begin_table("texts", len(lists), imgui.TableFlags_.sizing_fixed_fit)
