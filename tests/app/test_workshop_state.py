@@ -139,6 +139,19 @@ def test_values_of_sliders_are_written_into_the_text():
     assert state.put
 
 
+def test_a_text_is_called_as_its_first_line_says_once_that_is_written():
+    state = WorkshopState()
+    state.take("// Stitches: of wool\nx", "Stitches")
+    state.edit("// Stitches: of wool\nx + y")
+    assert state.name == "Stitches"
+    state.edit("// Wool, blue\nx + y")
+    assert state.name == "Wool"
+    state.edit("x + y")
+    assert state.name == "Wool"
+    state.edit("")
+    assert state.name == ""
+
+
 def test_a_text_comes_back_from_its_file_with_its_period(tmp_path):
     path = tmp_path / "wall.inktexture"
     WriteText(path, "// a wall\nbricks(x, y)\n", 96.0).carry_out()

@@ -18,7 +18,7 @@ from engine.studio.workshop.workshop_records import (
     WorkshopValues,
     WorkshopWords,
 )
-from engine.texture.expression.library.bundled_texts import LibraryText
+from engine.texture.expression.library.bundled_texts import LibraryText, title_of
 from engine.texture.expression.written import STAGES_MOST, USUAL_STAGES
 
 _MAKER, WRITTEN = "expression", "Written"
@@ -107,7 +107,10 @@ class WorkshopState:
         self.look(0, (0, 0))
 
     def edit(self, text: str) -> None:
-        """The text is another one now; where a line came or went, the texture is looked at."""
+        """The text is another one now, called as its first line says if that is another, too; where a line came or
+        went, the texture is looked at."""
+        if not text.strip() or title_of(text) not in ("", title_of(self.text)):
+            self.name = title_of(text)
         if text.count("\n") != self.text.count("\n"):
             self.line = -1
         self.text = text

@@ -57,6 +57,14 @@ def like_in_library(name: str) -> str:
 def library_text(path: Path) -> LibraryText:
     """Returns a text of a file."""
     text = path.read_text("utf-8")
-    about = text.partition("\n")[0].removeprefix("//").strip()
-    title = about.partition(":")[0].partition(",")[0].strip()
-    return LibraryText(title, about, text)
+    return LibraryText(title_of(text), _about(text), text)
+
+
+def title_of(text: str) -> str:
+    """Returns what a text's first line says that it is; "" where that is no note."""
+    return _about(text).partition(":")[0].partition(",")[0].strip()
+
+
+def _about(text: str) -> str:
+    first = text.partition("\n")[0]
+    return first.removeprefix("//").strip() if first.startswith("//") else ""
