@@ -69,7 +69,7 @@ def painted_since(pyramid: Pyramid) -> Iterator[tuple[TileKey, Record]]:
     files.  Of those on disk few are in memory at a time."""
     for level in sorted(pyramid.levels):
         stored = pyramid.levels[level]
-        for part in stored.rows() if isinstance(stored, PagedLevel) else [stored.items()]:
+        for part in stored.lines(1) if isinstance(stored, PagedLevel) else [stored.items()]:
             tiles = ((TileKey(level, *place), record) for place, record in part)
             yield from ordered([tile for tile in tiles if not unchanged(pyramid, *tile)])
 

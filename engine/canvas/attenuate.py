@@ -17,6 +17,7 @@ import numpy as np
 from engine.canvas import kernels
 from engine.canvas.compact import compact
 from engine.canvas.dither import dithering
+from engine.canvas.rising.tile_blocks import Blocks
 from engine.canvas.store import Attenuation, Pyramid, Record, finer_levels, level_bounds
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.column import Column
@@ -193,7 +194,7 @@ def fold(pyramid: Pyramid, depth: int | None = None) -> Pyramid:
         if changed:
             levels = levels.set(level, finished) if len(finished) else levels.delete(level)
             blocks = pyramid.blocks(level)
-            known = known if blocks is None else known.set(level, blocks.after(finished, places))
+            known = known.set(level, blocks.after(finished, places)) if isinstance(blocks, Blocks) else known
     bounds = None if bounds is None else bounds.after(levels, ())
     left = _left(pyramid, until)
     return replace(pyramid, levels=levels, settled=until, waits=left, known=known, bounds_known=bounds)

@@ -20,7 +20,9 @@ from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store, values_beside
 from engine.canvas.rising.lasting import Lasting
 from engine.canvas.rising.level_bounds import LevelTiles
+from engine.canvas.rising.paged_level import PagedLevel
 from engine.canvas.rising.risen import Risen, rise
+from engine.canvas.rising.tile_blocks import Blocks
 from engine.canvas.store import Attenuation, Change, Pyramid, Record, finer_levels, level_bounds, level_of
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
@@ -291,7 +293,9 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
         finished = level_of(editable.finish())
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)
         blocks = pyramid.blocks(k)
-        if blocks is not None:
+        if isinstance(finished, PagedLevel):
+            known = known.delete(k) if k in known else known
+        elif isinstance(blocks, Blocks):
             known = known.set(k, blocks.after(finished, [(key.x, key.y) for key in keys]))
     if bounds is not None:
         written = (LevelTiles(k, [(key.x, key.y) for key in keys]) for k, keys in by_level.items())

@@ -23,7 +23,7 @@ import numpy as np
 from engine.canvas.rising import paged_level
 from engine.canvas.rising.lasting import Lasting
 from engine.canvas.rising.level_bounds import MANY_LEVELS, LevelBounds
-from engine.canvas.rising.paged_level import PagedLevel, bit_of
+from engine.canvas.rising.paged_level import PagedLevel
 from engine.canvas.rising.tile_blocks import Blocks
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.arithmetic import FINE
@@ -286,8 +286,7 @@ class Pyramid:
             candidates = ((key, stored.get((key.x, key.y))) for key in rect.tiles(level))
         else:
             x0, y0, x1, y1 = places
-            blocks = self.blocks(level)
-            near = stored if blocks is None else blocks.within(places)
+            near = stored if (known := self.blocks(level)) is None else known.within(places)
             found = sorted(at for at in near if x0 <= at[0] < x1 and y0 <= at[1] < y1)
             candidates = ((TileKey(level, *place), stored.get(place)) for place in found)
         for key, record in candidates:
@@ -306,15 +305,16 @@ class Pyramid:
             return False
         if places.area <= min(len(stored), _FEW):
             return any((key.x, key.y) in stored for key in rect.tiles(level))
-        blocks = self.blocks(level)
-        if blocks is not None:
-            return blocks.any_within(places)
+        if (known := self.blocks(level)) is not None:
+            return next(known.within(places), None) is not None
         x0, y0, x1, y1 = places
         return any(x0 <= x < x1 and y0 <= y < y1 for x, y in stored)
 
-    def blocks(self, level: int) -> Blocks | None:
-        """Returns where the records of a level lie; None where they are few.  Going through all of them is noted."""
+    def blocks(self, level: int) -> Blocks | PagedLevel[Record] | None:
+        """Returns what tells where the records of a level lie; None where they are few.  Going through all is noted."""
         stored = self.levels.get(level)
+        if isinstance(stored, PagedLevel):
+            return stored
         if stored is None or len(stored) < _FEW:
             return None
         known = self.known.get(level)
@@ -327,7 +327,7 @@ class Pyramid:
         """Gives all records with their places, the coarsest level first, row by column of tiles."""
         for level in sorted(self.levels):
             stored = self.levels[level]
-            for part in stored.columns() if isinstance(stored, PagedLevel) else [stored.items()]:
+            for part in stored.lines(0) if isinstance(stored, PagedLevel) else [stored.items()]:
                 for place, record in sorted(part):
                     yield TileKey(level, *place), record
 
@@ -339,7 +339,7 @@ class Pyramid:
             return
         for page in stored.pages.values():
             away, changed = page.held
-            if away is None or any(away.bits & bit_of(place) for place in changed):
+            if away is None or any(place in away.where for place in changed):
                 yield from (record.inks for _, record in page.items())
                 continue
             yield from away.inks

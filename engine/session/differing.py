@@ -12,8 +12,17 @@ from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group, Layer, Node
-from engine.canvas.rising.paged_level import PagedLevel, TilePlace, page_of
-from engine.canvas.store import RECORD_OVERHEAD, Change, Level, Pyramid, Record, changed_rects, changes_between
+from engine.canvas.rising.page_places import TilePlace
+from engine.canvas.rising.paged_level import PagedLevel
+from engine.canvas.store import (
+    RECORD_OVERHEAD,
+    Change,
+    Level,
+    Pyramid,
+    Record,
+    changed_rects,
+    changes_between,
+)
 from engine.numeric.address import Rect, TileKey
 from engine.session.held_pyramids import Sheet, changed_nodes, pyramids, pyramids_of, related
 from engine.texture.example.tiles import TilePlanes
@@ -66,7 +75,7 @@ def _in_memory(level: Level, place: TilePlace) -> Record | None:
     """Returns the record of a tile; None if it has none, or that lies on disk."""
     if not isinstance(level, PagedLevel):
         return level.get(place)
-    page = level.pages.get(page_of(place))
+    page = level.page_at(place)
     return None if page is None else page.held[1].get(place)
 
 
@@ -102,7 +111,7 @@ def difference(old: Group, new: Group, lessen: Lessen | None = None) -> tuple[in
             lost += in_new.lacks(a) if a is not None else 0
             gained += in_old.lacks(b) if b is not None else 0
             continue
-        for key, record, beside in _apart(a, b):
+        for key, record, beside in placed_apart(a, b):
             apart = not in_new.holds(key, record)
             if lessen is not None and beside is not None:
                 lessen(record if apart else None, beside)
@@ -194,10 +203,10 @@ def lost_records(old: Group, new: Group) -> Iterator[Record]:
 def _only(one: Pyramid, other: Pyramid) -> Iterator[OnlyHere]:
     """Yields the records of one state that another of the same line of history does not share, and what that has in
     their places."""
-    return ((key, record, beside) for key, record, beside in _apart(one, other) if record is not None)
+    return ((key, record, beside) for key, record, beside in placed_apart(one, other) if record is not None)
 
 
-def _apart(one: Pyramid, other: Pyramid) -> Iterator[tuple[TileKey, Record | None, Record | None]]:
+def placed_apart(one: Pyramid, other: Pyramid) -> Iterator[tuple[TileKey, Record | None, Record | None]]:
     """Yields the places where two states of a line of history have other records, and what each has there."""
     folded = _folded_between(one, other)
     for level in _levels_apart(one, other, folded):
@@ -248,7 +257,7 @@ def _places(rects: list[Rect], states: tuple[Pyramid, Pyramid], level: int) -> I
 
 def _held_within(rects: list[Rect], state: Pyramid, level: int) -> Iterable[tuple[int, int]]:
     """Returns the places in some rectangles of tiles that have records, or all where they are few."""
-    blocks = state.blocks(level)
-    if blocks is None:
+    places = state.blocks(level)
+    if places is None:
         return state.levels.get(level, _NOTHING)
-    return itertools.chain.from_iterable(map(blocks.within, rects))
+    return itertools.chain.from_iterable(map(places.within, rects))

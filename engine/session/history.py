@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -32,7 +33,7 @@ from engine.session.coding.laid_records import pack_laid, stays_packed
 from engine.session.coding.spanned import lessen
 from engine.session.differing import apart_records, apart_tiles, difference, lost_records
 from engine.session.held_pyramids import pyramids
-from engine.session.line import StepLine, Undoable, counted
+from engine.session.line import StepLine, Undoable, counted, is_thickset, make_thin
 from engine.session.old_commits import OldCommits
 from engine.texture.example.tiles import TilePlanes
 
@@ -84,7 +85,7 @@ class History(Owned):
 
     @property
     def steps(self) -> HeldSteps:
-        """Gives all steps, as values."""
+        """Gives the steps, as values, but for those far away that are not there as a whole."""
         return HeldSteps(self._done.steps, self._undone.steps)
 
     @property
@@ -109,7 +110,9 @@ class History(Owned):
         self._done.push(Undoable(_stepped(before), _stepped(after), *difference(before.root, after.root, smaller)))
         self._forget()
         entries = self._done.entries  # none in a replay that keeps no step
-        self._old.step((entries[0].step.before if entries else after).root)
+        oldest = entries[0].whole if entries else None
+        if oldest is not None or not entries:
+            self._old.step((after if oldest is None else oldest.before).root)
 
     def undo(self) -> Painting:
         """Returns the painting before the last step; IndexError if there is none."""
@@ -123,6 +126,8 @@ class History(Owned):
         """Takes the nearest step from one side of the present to the other."""
         step = counted(one.pop())  # some of its records may be coded, and those of both ends were since it was pushed
         other.push(step)
+        if self.tight:
+            _make_thin(self._lines, 1)
         left, self._root = step.after.root, step.before.root
         if other is self._done:
             left, self._root = self._root, left
@@ -134,8 +139,10 @@ class History(Owned):
     def at(self, by: int) -> Painting | None:
         """Returns the painting so many steps on, or back if that is negative; None where that is not held, or is 0."""
         if 0 < -by <= len(self._done):
-            return self._done.entries[by].step.before
-        return self._undone.entries[-by].step.after if 0 < by <= len(self._undone) else None
+            step = self._done.entries[by].whole
+            return None if step is None else step.before
+        step = self._undone.entries[-by].whole if 0 < by <= len(self._undone) else None
+        return None if step is None else step.after
 
     def amend(self, root: Group) -> None:
         """The layers as they are now, further refined, are `root`."""
@@ -155,7 +162,7 @@ class History(Owned):
         nothing else is to be done."""
         coding = sum(max(0, line.plain - self._at_hand) for line in self._lines)
         full = self.tight or sum(line.beyond for line in self._lines) > 0.75 * self._limit
-        crowded = full and any(line.in_memory for line in self._lines)
+        crowded = full and any(line.in_memory or is_thickset(line) for line in self._lines)
         return coding + int(len(self._mixed) + len(self._grown) > 0) + int(crowded)
 
     @property
@@ -176,12 +183,17 @@ class History(Owned):
             if not self.tight and _shows(self._root, tile):
                 decode_tile(tile)
                 return
+        if self.tight and any(map(is_thickset, self._lines)):
+            _make_thin(self._lines, 1)
+            return
         line = max(self._lines, key=lambda line: line.plain)
         coded = max(self._lines, key=lambda line: line.in_memory)
         if line.plain > self._at_hand:
             line.code(_AT_ONCE)
         elif coded.in_memory:
             coded.put_away()
+        else:
+            _make_thin(self._lines, 1)
 
     def _forget(self) -> None:
         """Codes as much again as the newest step brought where nobody rested for long, so that each costs the same, and
@@ -195,13 +207,25 @@ class History(Owned):
             done.press(_SHARE * done.entries[-1].held + _TIGHT_AT_ONCE, _TIGHT_STEPS)
         elif done.plain and self.held > limit / 2:
             done.code(max(_SHARE * done.entries[-1].held, _AT_ONCE))
+        if self.tight:
+            _make_thin(self._lines, _TIGHT_STEPS)
         while done.plain and self.held > limit:
             done.code()
         while cap and done.in_memory and done.beyond > cap:
             done.put_away()
+        while cap and is_thickset(done) and done.beyond > cap:
+            make_thin(done)
         while cap and len(done) > self._keep and done.beyond > cap:
             done.forget()
             self.forgotten += 1
+
+
+def _make_thin(lines: Iterable[StepLine], count: int) -> None:
+    """Makes so many steps of each line thin, as far as there are any."""
+    for line in lines:
+        for _ in range(count):
+            if is_thickset(line):
+                make_thin(line)
 
 
 def _stepped(painting: Painting) -> Painting:

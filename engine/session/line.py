@@ -6,16 +6,19 @@ import math
 from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from itertools import takewhile
 
 from engine.canvas.layers import Group
 from engine.canvas.store import Record
 from engine.painting.value import Painting
 from engine.session.coding.coded_records import CodedData, Ways, decode, leads_to, put_away
 from engine.session.coding.coded_tiles import CodedTile, encode_tile
+from engine.session.coding.thin_steps import ThinStep, thin_step
 from engine.session.differing import apart_records, apart_tiles, difference
 from engine.session.held_pyramids import changed_nodes, pyramids_of, related
 from engine.texture.example.tiles import TilePlanes
 
+KEPT_WHOLE = 256  # steps that are never made thin
 _PRESSED = 12  # steps that are coded at once, where the newest asks for room
 STEP_OVERHEAD = 6000  # bytes of a step's own objects, roughly: most are nodes of the maps of some ten levels
 
@@ -33,17 +36,25 @@ class Undoable:
 @dataclass(eq=False, slots=True)
 class StepEntry:
     """A step in a line; `held`: bytes that its far end alone takes now; `coded`: whether these are coded; `records`:
-    what is coded of it and lies in memory."""
+    what is coded of it and lies in memory; `thin`: what it is made of again where it is not there as a whole."""
 
-    step: Undoable
+    whole: Undoable | None
     held: int
     coded: bool = False
     records: list[Record | TilePlanes] = field(default_factory=list)
+    thin: ThinStep | None = None
+
+    @property
+    def step(self) -> Undoable:
+        """Gives the step, which is there."""
+        assert self.whole is not None
+        return self.whole
 
 
 class StepLine:
     """The steps on one side of the present, the farthest first.  Of each, the far end is the painting that it leads to
-    from the present; what that alone holds is coded, and put away on disk, from the farthest step on.
+    from the present; what that alone holds is coded, and put away on disk, from the farthest step on.  Those far away
+    are made thin where there is little room: they are known by what they changed until they are near again.
 
     `undone`: they are those undone; `ways`: how their records are made of one another.
     """
@@ -53,6 +64,7 @@ class StepLine:
         self.entries = deque(StepEntry(step, _alone(step, self._undone)) for step in steps)
         self.held = sum(entry.held for entry in self.entries)
         self._coded = self._away = 0  # of them
+        self._thin = 0  # of them, and those that cannot be made thin
         self._begun: Iterator[int] | None = None  # what is still to be coded of the next one
 
     def __len__(self) -> int:
@@ -60,8 +72,10 @@ class StepLine:
 
     @property
     def steps(self) -> tuple[Undoable, ...]:
-        """Gives the steps, as values."""
-        return tuple(entry.step for entry in self.entries)
+        """Gives the steps that are there as a whole, as values: from the nearest to the present on, up to one that is
+        not."""
+        near = takewhile(lambda step: step is not None, (entry.whole for entry in reversed(self.entries)))
+        return tuple(step for step in near if step is not None)[::-1]
 
     @property
     def plain(self) -> int:
@@ -92,6 +106,9 @@ class StepLine:
             self._away = min(self._away, self._coded)
             self._begun = None
             self.ways.forget()
+        self._thin = min(self._thin, max(len(self.entries) - 1, 0))
+        if self.entries and self.entries[-1].thin is not None:
+            _thicken(self, self.entries[-1], _ends(entry.step, self._undone)[0])
         return entry.step
 
     def forget(self) -> None:
@@ -102,13 +119,14 @@ class StepLine:
             self._begun = None
         self._coded -= entry.coded
         self._away -= min(self._away, 1)
+        self._thin -= min(self._thin, 1)
 
     def clear(self) -> None:
         """Forgets all steps."""
         self.entries.clear()
         self._begun = None
         self.ways.forget()
-        self.held = self._coded = self._away = 0
+        self.held = self._coded = self._away = self._thin = 0
 
     def code(self, size: float = math.inf) -> float:
         """Codes the farthest step that is not coded yet: so many bytes of its data, or all that is left of them.
@@ -139,7 +157,7 @@ class StepLine:
         """Has an entry hold its step with what that takes now."""
         held = _alone(step, self._undone)
         self.held += held - entry.held
-        entry.step, entry.held = step, held
+        entry.whole, entry.held = step, held
 
     def press(self, size: float, count: int) -> None:
         """Codes so many bytes of the farthest steps, of `_PRESSED` of them at most, as thousands may hold next to
@@ -171,6 +189,42 @@ class StepLine:
             yield size
 
 
+def is_thickset(line: StepLine) -> bool:
+    """Tells whether a step could still be made thin: it is far from the present."""
+    return len(line.entries) - line._thin > KEPT_WHOLE
+
+
+def make_thin(line: StepLine) -> None:
+    """Makes the farthest step thin that could be, if what it changed is told in few bytes; else it is coded, and put
+    away on disk."""
+    number = line._thin
+    entry, nearer = line.entries[number], line.entries[number + 1]
+    (far, near), reached = _paintings(entry.step, line._undone), _ends(nearer.step, line._undone)[0]
+    line._thin += 1
+    made = thin_step(far, near) if reached is near.root else None
+    if made is None:
+        if number == line._coded:
+            line.code()
+        if number == line._away:
+            line.put_away()
+        return
+    if number == line._coded:
+        line._begun = None
+    line._coded, line._away = max(line._coded, number + 1), max(line._away, number + 1)
+    line.held += made.nbytes - entry.held
+    entry.whole, entry.thin, entry.held, entry.coded = None, made, made.nbytes, True
+    entry.records.clear()
+
+
+def _thicken(line: StepLine, entry: StepEntry, root: Group) -> None:
+    """Makes a thin step whole again, `root` the layers at its near end.  OSError if it cannot be read."""
+    assert entry.thin is not None
+    ends = entry.thin.ends(root)
+    step = counted(Undoable(*(ends[::-1] if line._undone else ends), 0, 0))
+    entry.thin = None
+    line._take(entry, step)
+
+
 def _ready(record: Record, other: Record | None, undone: bool) -> Record | None:
     """Returns the record by which one of a far end is coded, the one in its place; of the steps that are done, which
     are forgotten one by one, never one that is made of what is farther: that is made plain."""
@@ -184,8 +238,13 @@ def _ready(record: Record, other: Record | None, undone: bool) -> Record | None:
 
 def _ends(step: Undoable, undone: bool) -> tuple[Group, Group]:
     """Returns the layers at the far end of a step, and at the near one."""
-    ends = step.before.root, step.after.root
-    return ends[::-1] if undone else ends
+    far, near = _paintings(step, undone)
+    return far.root, near.root
+
+
+def _paintings(step: Undoable, undone: bool) -> tuple[Painting, Painting]:
+    """Returns the far end of a step, and the near one."""
+    return (step.after, step.before) if undone else (step.before, step.after)
 
 
 def _alone(step: Undoable, undone: bool) -> int:

@@ -85,7 +85,7 @@ def _freed(root: Group, level: int | None, aside: Sequence[Group]) -> Iterator[i
         for k in _farthest_first(pyramid, level):
             stored = pyramid.levels[k]
             if isinstance(stored, PagedLevel):
-                yield from (put_page_away(page, _old_until(pyramid)) for page in stored.pages.values())
+                yield from (put_page_away(at, page, _old_until(pyramid)) for at, page in stored.pages.items())
     for pyramid in held:
         yield from (block.put_away() for block in blocks_of(pyramid))
     for late in (False, True):

@@ -33,6 +33,7 @@ from engine.session.steps import Steps
 from engine.strokes.example_stroke import Live, kind_of
 from engine.texture.image import ImageSource
 
+_SOME_STEPS = 64  # crossed at once, after which memory is looked after
 Heard = Callable[[c.Command, Live | None], None]
 
 
@@ -169,9 +170,13 @@ class Session(Owned):
         if not count:
             return self.painting
         step = self._history.undo if undoing else self._history.redo
-        for _ in range(count):
+        for number in range(1, count + 1):
             found = step()
-        return self._arrive(found, replace(command, count=count))
+            if number % _SOME_STEPS == 0:
+                self.room.keep_within(found.root)
+        self._arrive(found, replace(command, count=count))
+        self.room.keep_within(self.painting.root)
+        return self.painting
 
     def leap(self, number: int, found: Painting, history: History) -> Painting:
         """Makes the step of a number (`Steps`) the last one that is done, though the history does not hold it.

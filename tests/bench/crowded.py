@@ -116,8 +116,8 @@ def _crowd(session: Session, count: int) -> int:
                 data = np.roll(pattern.data, top + n, axis=2)
                 editor.set(place, Record(pattern.rect, data, pattern.inks, 0))
             laid = editor.finish()
-            for page in laid.pages.values():
-                put_page_away(page, 0)
+            for at, page in laid.pages.items():
+                put_page_away(at, page, 0)
         levels = levels.set(level, laid)
     pyramid = replace(layer.pyramid, levels=levels, last=change, known=immutables.Map())
     root = layers.with_pyramid(session.painting.root, layer.name, pyramid)

@@ -13,7 +13,8 @@ from itertools import chain
 from immutables import Map
 
 from engine.archive.shelves.shelf import Block, Filed, Lessened
-from engine.canvas.rising.paged_level import MANY, Page, PagedLevel, TilePlace, bit_of, page_of, place_in
+from engine.canvas.rising.page_places import LEAST_SIDE, NearPlaces, TilePlace, bit_of, page_of, place_in
+from engine.canvas.rising.paged_level import MANY, Page, PagedLevel
 from engine.canvas.store import Pyramid, Record
 from engine.files.fault import FileError
 from engine.numeric.address import Rect, TileKey
@@ -31,11 +32,10 @@ PAGES_READ: Recent[Mapping[TilePlace, Record]] = Recent(lambda: _READ)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FiledPage:
-    """Records of a page that lie in blocks of a file: `at`, the page's place; `bits`: where they lie in it; `inks`:
-    stacks of inks that they have; `blocks`: that they lie in; `facts`: of each of them."""
+    """Records of a page that lie in blocks of a file: `where` they lie in it; `inks`: stacks of inks that they have;
+    `blocks`: that they lie in; `facts`: of each of them."""
 
-    at: TilePlace
-    bits: int
+    where: NearPlaces
     inks: tuple[Stack, ...]
     blocks: tuple[Block, ...]
     facts: bytes
@@ -53,7 +53,7 @@ class FiledPage:
         """Yields them, new each time."""
         for bit, x0, y0, x1, y1, told, block, number in _FACT.iter_unpack(self.facts):
             held = Filed(self.blocks[block], number, _WIDE >> (told & 1))
-            yield place_in(self.at, bit), Record(Rect(x0, y0, x1, y1), held, self.inks[told >> 1], self.depth)
+            yield place_in(self.where.at, bit), Record(Rect(x0, y0, x1, y1), held, self.inks[told >> 1], self.depth)
 
 
 def blocks_of(pyramid: Pyramid) -> Iterator[Block]:
@@ -90,7 +90,7 @@ class _Gathering:
 
     def page(self, at: TilePlace, depth: int) -> FiledPage:
         """Returns it with all that it has."""
-        return FiledPage(at, self.bits, tuple(self._inks), tuple(self._blocks), bytes(self._facts), depth)
+        return FiledPage(NearPlaces(at, self.bits), tuple(self._inks), tuple(self._blocks), bytes(self._facts), depth)
 
 
 class Gathered:
@@ -133,10 +133,11 @@ class Gathered:
     def _level(self, level: int, depth: int) -> Mapping[TilePlace, Record]:
         pages = {at: page.page(at, depth) for at, page in self._filed.pop(level, {}).items()}
         others = {place: _at_depth(record, depth) for place, record in self._others.pop(level).items()}
-        count = sum(page.bits.bit_count() for page in pages.values())
+        count = sum(len(page.where) for page in pages.values())
         if count < MANY:
             return dict(chain.from_iterable(page.made() for page in pages.values())) | others
-        paged = PagedLevel(Map({at: Page[Record](page, Map()) for at, page in pages.items()}), count)
+        by_key = {(*at, LEAST_SIDE): Page[Record](page, Map()) for at, page in pages.items()}
+        paged = PagedLevel(Map(by_key), None, count)
         if not others:
             return paged
         editable = paged.mutate()

@@ -1,7 +1,8 @@
-"""The records of a level where they are many: by pages of 8 x 8 tiles, each of which may be put away on disk.
+"""The records of a level where they are many: by pages, each of which may be put away on disk.
 
-All states of the history that have a page share it, so that what is put away of one is put away of all.  A state that
-changes a tile holds the page's older records, wherever they lie, and the changed one beside them.
+A page has 8 x 8 tiles, or more where they lie far apart (`page_sizes`).  All states of the history that have a page
+share it, so that what is put away of one is put away of all.  A state that changes a tile holds the page's older
+records, wherever they lie, and the changed one beside them.
 """
 
 from __future__ import annotations
@@ -11,23 +12,24 @@ from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import immutables
 
+from engine.canvas.rising.page_lines import in_lines
+from engine.canvas.rising.page_places import LEAST_SIDE, PageKey, PagePlaces, TilePlace
+from engine.canvas.rising.page_sizes import PAGE_FULL, by_pages, key_for, keys_met
+from engine.numeric.address import Rect
 from engine.texture.record import Instance
 
-TilePlace = tuple[int, int]  # column and row of a tile, or of a page
 R = TypeVar("R")
 T_co = TypeVar("T_co", covariant=True)
 
 MANY = 4096  # records from which on a level has pages
-_PAGE_SIDE = 3  # a page is 8 tiles along, as a power of two
-_IN_PAGE = (1 << _PAGE_SIDE) - 1
 _UNTOLD = object()
 
 
 class PutAwayPage(Protocol[T_co]):
-    """Records of one page that are not in memory.  `bits`: where they lie in it (`bit_of`)."""
+    """Records of one page that are not in memory."""
 
     @property
-    def bits(self) -> int:
+    def where(self) -> PagePlaces:
         """Tells where they lie."""
         ...
 
@@ -58,7 +60,7 @@ class Page(Generic[R]):
         found = changed.get(place, _UNTOLD)
         if found is not _UNTOLD:
             return found  # type: ignore[return-value]
-        return away.records().get(place) if away is not None and away.bits & bit_of(place) else None
+        return away.records().get(place) if away is not None and place in away.where else None
 
     def has(self, place: TilePlace) -> bool:
         """Tells whether a tile has a record."""
@@ -66,7 +68,13 @@ class Page(Generic[R]):
         found = changed.get(place, _UNTOLD)
         if found is not _UNTOLD:
             return found is not None
-        return away is not None and away.bits & bit_of(place) != 0
+        return away is not None and place in away.where
+
+    @property
+    def most(self) -> int:
+        """Counts the records, and those that were taken away."""
+        away, changed = self.held
+        return len(changed) + (0 if away is None else len(away.where))
 
     def items(self) -> Iterator[tuple[TilePlace, R]]:
         """Yields all records with their places."""
@@ -75,15 +83,11 @@ class Page(Generic[R]):
             yield from ((place, record) for place, record in away.records().items() if place not in changed)
         yield from ((place, record) for place, record in changed.items() if record is not None)
 
-    def places(self, page: TilePlace) -> Iterator[TilePlace]:
-        """Yields the places of all records of the page at a place."""
+    def places(self) -> Iterator[TilePlace]:
+        """Yields the places of all records."""
         away, changed = self.held
-        bits = 0 if away is None else away.bits
-        while bits:
-            place = place_in(page, (bits & -bits).bit_length() - 1)
-            bits &= bits - 1
-            if place not in changed:
-                yield place
+        if away is not None:
+            yield from (place for place in away.where if place not in changed)
         yield from (place for place, record in changed.items() if record is not None)
 
     def put_away(self, away: PutAwayPage[R], left: immutables.Map[TilePlace, R | None]) -> None:
@@ -92,25 +96,33 @@ class Page(Generic[R]):
 
 
 class PagedLevel(Mapping[TilePlace, R]):
-    """The records of a level by their places, as an `immutables.Map` has them.  `pages`: by their places."""
+    """The records of a level by their places, as an `immutables.Map` has them.  `split`: pages that have smaller ones
+    in their place; None where all are of 8 x 8 tiles."""
 
-    __slots__ = ("_count", "pages")
+    __slots__ = ("_count", "pages", "split")
 
-    def __init__(self, pages: immutables.Map[TilePlace, Page[R]], count: int) -> None:
-        self.pages, self._count = pages, count
+    def __init__(
+        self,
+        pages: immutables.Map[PageKey, Page[R]],
+        split: immutables.Map[PageKey, None] | None,
+        count: int,
+    ) -> None:
+        self.pages, self.split, self._count = pages, split, count
 
     @classmethod
     def of(cls, stored: Mapping[TilePlace, R]) -> PagedLevel[R]:
         """Lays out all records in pages."""
-        found: dict[TilePlace, dict[TilePlace, R | None]] = {}
-        for place, record in stored.items():
-            found.setdefault(page_of(place), {})[place] = record
-        pages = {at: Page(None, immutables.Map(records)) for at, records in found.items()}
-        return cls(immutables.Map(pages), len(stored))
+        found, split = by_pages(stored, None)
+        pages = {at: Page[R](None, immutables.Map(records)) for at, records in found.items()}
+        return cls(immutables.Map(pages), immutables.Map(dict.fromkeys(split)), len(stored))
+
+    def page_at(self, place: TilePlace) -> Page[R] | None:
+        """Returns the page in which a tile lies; None where that has no record."""
+        return self.pages.get(key_for(place, self.pages, self.split))
 
     def get(self, place: TilePlace, default: R | None = None) -> R | None:  # type: ignore[override]
         """Returns the record of a tile."""
-        page = self.pages.get((place[0] >> _PAGE_SIDE, place[1] >> _PAGE_SIDE))
+        page = self.page_at(place)
         found = page.get(place) if page is not None else None
         return default if found is None else found
 
@@ -121,12 +133,12 @@ class PagedLevel(Mapping[TilePlace, R]):
         return found
 
     def __contains__(self, place: object) -> bool:
-        page = self.pages.get(page_of(place))  # type: ignore[arg-type]
+        page = self.page_at(place)  # type: ignore[arg-type]
         return page is not None and page.has(place)  # type: ignore[arg-type]
 
     def __iter__(self) -> Iterator[TilePlace]:
-        for at, page in self.pages.items():
-            yield from page.places(at)
+        for page in self.pages.values():
+            yield from page.places()
 
     def __len__(self) -> int:
         return self._count
@@ -142,20 +154,16 @@ class PagedLevel(Mapping[TilePlace, R]):
         """Gives all records with their places."""
         return _Items(self)
 
-    def rows(self) -> Iterator[list[tuple[TilePlace, R]]]:
-        """Yields all records with their places, those of a row of pages together, from the top."""
-        return self._in_lines(1)
+    def lines(self, axis: int) -> Iterator[list[tuple[TilePlace, R]]]:
+        """Yields all records with their places, those of a column of 8 tiles together from the left (axis 0), or those
+        of a row from the top (1)."""
+        return in_lines(self.pages, axis)
 
-    def columns(self) -> Iterator[list[tuple[TilePlace, R]]]:
-        """Yields all records with their places, those of a column of pages together, from the left."""
-        return self._in_lines(0)
-
-    def _in_lines(self, axis: int) -> Iterator[list[tuple[TilePlace, R]]]:
-        lines: dict[int, list[Page[R]]] = {}
-        for at, page in self.pages.items():
-            lines.setdefault(at[axis], []).append(page)
-        for number in sorted(lines):
-            yield [item for page in lines[number] for item in page.items()]
+    def within(self, places: Rect) -> Iterator[TilePlace]:
+        """Yields the places of records that lie in a rectangle of places."""
+        x0, y0, x1, y1 = places
+        for key in keys_met(self.pages, self.split, places):
+            yield from ((x, y) for x, y in self.pages[key].places() if x0 <= x < x1 and y0 <= y < y1)
 
     def here(self) -> Iterator[R]:
         """Yields the records that are in memory."""
@@ -190,7 +198,7 @@ class PageEditor(Generic[R]):
 
     def __init__(self, level: PagedLevel[R]) -> None:
         self._level, self._count = level, len(level)
-        self._changed: dict[TilePlace, _Changed[R]] = {}
+        self._changed: dict[PageKey, _Changed[R]] = {}
 
     def set(self, place: TilePlace, record: R) -> None:
         """Gives a tile a record."""
@@ -218,18 +226,24 @@ class PageEditor(Generic[R]):
 
     def finish(self) -> PagedLevel[R]:
         """Returns the other state."""
-        pages = self._level.pages.mutate()
+        level = self._level
+        pages, split = level.pages.mutate(), level.split
         for at, changed in self._changed.items():
             page = Page(changed.away, changed.changed.finish())
-            if next(page.places(at), None) is not None:
+            if page.most > PAGE_FULL and at[2] > LEAST_SIDE and split is not None:
+                found, marks = by_pages(dict(page.items()), at)
+                pages.pop(at, None)
+                pages.update({key: Page(None, immutables.Map(records)) for key, records in found.items() if records})
+                split = split.update(dict.fromkeys(marks))
+            elif next(page.places(), None) is not None:
                 pages[at] = page
             else:
                 pages.pop(at, None)
-        return PagedLevel(pages.finish(), self._count)
+        return PagedLevel(pages.finish(), split, self._count)
 
     def _page(self, place: TilePlace) -> _Changed[R]:
         """Returns the page of a tile as it is by now."""
-        at = page_of(place)
+        at = key_for(place, self._level.pages, self._level.split)
         found = self._changed.get(at)
         if found is None:
             page = self._level.pages.get(at)
@@ -246,24 +260,9 @@ class _Changed(NamedTuple, Generic[R]):
 
     def is_away(self, place: TilePlace) -> bool:
         """Tells whether a tile has a record that is not in memory."""
-        return self.away is not None and self.away.bits & bit_of(place) != 0
+        return self.away is not None and place in self.away.where
 
     def has(self, place: TilePlace) -> bool:
         """Tells whether a tile has a record."""
         found = self.changed.get(place, _UNTOLD)
         return self.is_away(place) if found is _UNTOLD else found is not None
-
-
-def page_of(place: TilePlace) -> TilePlace:
-    """Returns the place of the page in which a tile lies."""
-    return place[0] >> _PAGE_SIDE, place[1] >> _PAGE_SIDE
-
-
-def place_in(page: TilePlace, number: int) -> TilePlace:
-    """Returns the place of the tile whose bit has this number in the page at a place."""
-    return (page[0] << _PAGE_SIDE) + (number & _IN_PAGE), (page[1] << _PAGE_SIDE) + (number >> _PAGE_SIDE)
-
-
-def bit_of(place: TilePlace) -> int:
-    """Returns the bit of a tile in its page."""
-    return 1 << ((place[1] & _IN_PAGE) << _PAGE_SIDE | place[0] & _IN_PAGE)

@@ -61,10 +61,6 @@ class Blocks:
             for at in _set_bits(held):
                 yield left + (at & _INSIDE), top + (at >> _SIDE)
 
-    def any_within(self, places: Rect) -> bool:
-        """Tells whether any lies in a rectangle of places."""
-        return any(held for _, held in self._met(places))
-
     def _met(self, places: Rect) -> Iterator[tuple[Place, int]]:
         """Yields the blocks that a rectangle of places meets, and the bits of those of their tiles that lie in it."""
         if places.empty:

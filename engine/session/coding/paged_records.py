@@ -12,7 +12,8 @@ import numpy as np
 
 from engine.archive.shelves.filed_pages import PAGES_READ
 from engine.archive.shelves.shelf import Filed
-from engine.canvas.rising.paged_level import Page, TilePlace, bit_of
+from engine.canvas.rising.page_places import PageKey, PagePlaces, TilePlace, places_in
+from engine.canvas.rising.paged_level import Page
 from engine.canvas.store import Record
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import Rect
@@ -29,10 +30,10 @@ _INTEGERS = np.dtype(np.int16), np.dtype(np.int32)
 @dataclass(frozen=True, eq=False, slots=True)
 class RecordsAway:
     """Records of a page that are not in memory: `first`, the place of one of them, from which the others' are told;
-    `bits`: where they lie in the page; `inks`: stacks of inks that they have; `piece`: what they are made of."""
+    `where` they all lie; `inks`: stacks of inks that they have; `piece`: what they are made of."""
 
     first: TilePlace
-    bits: int
+    where: PagePlaces
     inks: tuple[tuple[Instance, ...], ...]
     piece: Spilled | bytes
 
@@ -46,7 +47,7 @@ class RecordsAway:
 
     def _read(self) -> dict[TilePlace, Record]:
         piece = self.piece if isinstance(self.piece, bytes) else self.piece.read()
-        count, (x, y) = self.bits.bit_count(), self.first
+        count, (x, y) = len(self.where), self.first
         facts = np.frombuffer(piece, np.int64, count * _FACTS).reshape(count, _FACTS)
         found, start = {}, facts.nbytes
         for right, down, x0, y0, x1, y1, depth, told, edges, length in facts.tolist():
@@ -57,13 +58,13 @@ class RecordsAway:
         return found
 
 
-def put_page_away(page: Page[Record], newest: int) -> int:
+def put_page_away(key: PageKey, page: Page[Record], newest: int) -> int:
     """Puts the records of a page away that were not stored after the commit `newest`.  Returns the bytes of memory
     that they take less: 0 where too few are worth it."""
     away, changed = page.held
     gone = [place for place, record in changed.items() if record is None]
     old = {at: record for at, record in changed.items() if record is not None and _is_old(record, newest)}
-    before = 0 if away is None else away.bits.bit_count()
+    before = 0 if away is None else len(away.where)
     freed = sum(record.nbytes for record in old.values()) - (_PAGE_OVERHEAD if away is None else 0)
     if freed <= 0 or len(old) * _WORTH_PART < before:
         return 0
@@ -71,7 +72,7 @@ def put_page_away(page: Page[Record], newest: int) -> int:
     left = changed.mutate()
     for place in (*gone, *old):
         del left[place]
-    page.put_away(_away(kept | old), left.finish())
+    page.put_away(_away(key, kept | old), left.finish())
     return freed
 
 
@@ -83,16 +84,15 @@ def _is_old(record: Record, newest: int) -> bool:
     return plain and record.depth <= newest
 
 
-def _away(records: Mapping[TilePlace, Record]) -> RecordsAway:
+def _away(key: PageKey, records: Mapping[TilePlace, Record]) -> RecordsAway:
     first, stacks = next(iter(records)), dict[tuple[Instance, ...], int]()
-    facts, parts, bits = np.empty((len(records), _FACTS), np.int64), [b""], 0
+    facts, parts = np.empty((len(records), _FACTS), np.int64), [b""]
     for number, (place, record) in enumerate(records.items()):
         coded, packed = coded_alone(record)
         told = stacks.setdefault(record.inks, len(stacks)) << 1 | _INTEGERS.index(coded.dtype)
         at = place[0] - first[0], place[1] - first[1]
         facts[number] = *at, *record.rect, record.depth, told, coded.edges, len(packed)
         parts.append(packed)
-        bits |= bit_of(place)
     parts[0] = facts.tobytes()
     piece = b"".join(parts)
-    return RecordsAway(first, bits, tuple(stacks), spill().put(piece) or piece)
+    return RecordsAway(first, places_in(key, records), tuple(stacks), spill().put(piece) or piece)

@@ -78,6 +78,7 @@ class Document:
 
 def held_by(session: Session, known: bool = True) -> Document:
     """Returns what a session holds; `known`: its log leads from nothing to the painting."""
+    history, steps = session.history, session.history.steps
     return Document(
         session.painting,
         log=session.log.now(),
@@ -85,6 +86,6 @@ def held_by(session: Session, known: bool = True) -> Document:
         header=session.recording().header,
         base=session.base,
         known=known,
-        steps=session.history.steps,
-        leapt=session.leapt,
+        steps=steps,
+        leapt=session.leapt or len(steps.done) + len(steps.undone) < history.undo_count + history.redo_count,
     )

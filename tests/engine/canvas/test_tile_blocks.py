@@ -34,7 +34,6 @@ def test_tiles_within_a_rectangle_are_those_that_lie_there(one, other, corner):
     found = list(blocks.within(Rect.at(x, y, width, height)))
     assert set(found) == wanted
     assert len(found) == len(wanted)
-    assert blocks.any_within(Rect.at(x, y, width, height)) == bool(wanted)
 
 
 def test_a_full_block_takes_few_bytes_in_each_state_of_the_history():
@@ -65,7 +64,9 @@ def told(states):
         for rect in rects
     ]
     has = [state.has_records(level, rect) for state in states for level in state.levels for rect in rects]
-    apart = [sorted(key for key, _, _ in differing._apart(one, other)) for one, other in itertools.pairwise(states)]
+    apart = [
+        sorted(key for key, _, _ in differing.placed_apart(one, other)) for one, other in itertools.pairwise(states)
+    ]
     return held, has, apart
 
 

@@ -151,7 +151,7 @@ def test_a_process_that_takes_too_much_pages_what_is_painted(monkeypatch):
 
 
 def smallest(pages):
-    return min(pages, key=lambda page: sum(record.nbytes for _, record in page.items()))
+    return min(pages, key=lambda at_page: sum(record.nbytes for _, record in at_page[1].items()))
 
 
 def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch, tmp_path):
@@ -163,7 +163,7 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch,
         session.do(stroke(n, radius=2.0, ink=ROCK if n == 1 else ()))
     (layer,) = layers.layers(session.painting.root)
     level = layer.pyramid.levels[0]
-    assert put_page_away(smallest(level.pages.values()), 24) == 0  # its place on disk would take as much
+    assert put_page_away(*smallest(level.pages.items()), 24) == 0  # its place on disk would take as much
     monkeypatch.setattr(paged_records, "_PAGE_OVERHEAD", 0)
     before, states = contents(session.painting), session.history.steps.done
     save(tmp_path / "here.ora", Snapshot(session.painting))
