@@ -7,7 +7,7 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing.opening_requests import FileWhole, Show
 
-PATIENCE = 60.0  # seconds
+PATIENCE = 90.0  # seconds
 
 
 def read(studio, posted):

@@ -28,7 +28,7 @@ Path("moved").unlink()
 def told(folder, trace):
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "INKFALL_TRACE": trace, "PYTHONDONTWRITEBYTECODE": "1"}
     words = [sys.executable, "-c", PROBE]
-    done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=90, check=True)
     return done.stderr.splitlines()
 
 

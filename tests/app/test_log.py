@@ -32,7 +32,7 @@ def state(tmp_path, monkeypatch):
 def run(code):
     """A program that opens the log and does something."""
     lines = f"import logging, os, signal, threading\nfrom app.faults.log import LOGGER, open_log\nopen_log()\n{code}\n"
-    return subprocess.run([sys.executable, "-c", lines], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    return subprocess.run([sys.executable, "-c", lines], cwd=ROOT, capture_output=True, text=True, timeout=90)
 
 
 @pytest.mark.parametrize("code", HOOKS)

@@ -71,7 +71,7 @@ def crashed(tmp_path, monkeypatch):
     code = "import os, signal, threading\nfrom app.faults.log import LOGGER, open_log, program_ident\nopen_log()\n"
     code += "LOGGER.error('before')\nprint(program_ident(), flush=True)\n"
     code += "threading.Thread(target=os.kill, args=(os.getpid(), signal.SIGSEGV)).start()\nthreading.Event().wait()"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, timeout=90)
     return tmp_path / "inkfall" / "log" / "inkfall.log", done.stdout.decode().strip()
 
 

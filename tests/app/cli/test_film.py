@@ -117,7 +117,7 @@ def test_a_painting_without_a_recording_can_only_be_flown_through(saved, tmp_pat
 @pytest.mark.parametrize("name", ["a.mp4", "a-%03d.png"])
 def test_nothing_is_left_of_a_film_that_is_given_up(saved, tmp_path, name):
     process = start("film", saved, tmp_path / name, *FLIGHT, "--size", "640x480", "--seconds", "600")
-    end = time.monotonic() + 60
+    end = time.monotonic() + 90
     while not list(tmp_path.iterdir()):
         assert process.poll() is None, process.stderr.read()
         assert time.monotonic() < end
@@ -125,7 +125,7 @@ def test_nothing_is_left_of_a_film_that_is_given_up(saved, tmp_path, name):
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
     try:
-        told = process.communicate(timeout=60)[1]
+        told = process.communicate(timeout=90)[1]
     finally:
         process.kill()
     assert (process.returncode, told) == (1, "inkfall: interrupted; nothing half-written is left\n")

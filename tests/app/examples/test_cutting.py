@@ -40,7 +40,7 @@ def answer(desk, posted):
     request = next(one for one in reversed(posted) if isinstance(one, FindCut))
     CutFinder(told.put).handlers[FindCut](request)
     while True:
-        result = told.get(timeout=60)
+        result = told.get(timeout=90)
         if isinstance(result, CutFound):
             cutting_work.hear(desk, result, 0.0)
             if result.pixels is not None:

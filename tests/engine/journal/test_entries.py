@@ -109,7 +109,7 @@ journal = Journal(head_of_new(), Path(sys.argv[1]))
 journal.ask(told_command(c.AddLayer("sky")))
 while not journal.settled: time.sleep(0.01)
 print("there", flush=True)
-time.sleep(60)
+time.sleep(600)
 """
 
 

@@ -118,7 +118,7 @@ def test_a_recovered_painting_goes_on_and_is_recovered_again(tmp_path):
     scenes = [result for result in idle(two) if isinstance(result, results.Scene)]
     assert scenes[-1].modified
     assert scenes[-1].path is None
-    end = time.monotonic() + 60
+    end = time.monotonic() + 90
     while [alive.alive for alive in entries.listed(folder)] != [True]:  # the one that was left is ended meanwhile
         assert time.monotonic() < end
         time.sleep(0.02)
@@ -147,7 +147,7 @@ def recovered_alone(tmp_path, monkeypatch, count=6):
     def held(*told):
         carried_out(*told)
         begun.set()
-        assert goes_on.wait(60)
+        assert goes_on.wait(200)
 
     monkeypatch.setattr(recovering, "_do", held)
     return entry, begun, goes_on
@@ -157,7 +157,7 @@ def test_painting_goes_on_while_another_is_recovered_and_is_asked_about(tmp_path
     entry, begun, goes_on = recovered_alone(tmp_path / "p", monkeypatch)
     two = painter(tmp_path / "other")
     two.post(q.Recover(entry.folder, "lake"))
-    assert begun.wait(60)
+    assert begun.wait(90)
     draw(two, 30, 9)
     scenes = [result for result in idle(two) if isinstance(result, results.Scene)]
     assert scenes[-1].can_undo  # it is on the painting that is there
@@ -183,7 +183,7 @@ def test_a_recovery_that_is_given_up_leaves_its_entry_to_others(tmp_path, monkey
     for shown in (False, True):  # given up as it is read, and when it is whole
         begun.clear()
         two.post(q.Recover(entry.folder))
-        assert begun.wait(60)
+        assert begun.wait(90)
         assert entries.is_alive(entry.folder)
         if shown:
             goes_on.set()
@@ -191,7 +191,7 @@ def test_a_recovery_that_is_given_up_leaves_its_entry_to_others(tmp_path, monkey
         two.post(CancelOpening())
         idle(two)
         goes_on.set()
-        end = time.monotonic() + 60
+        end = time.monotonic() + 90
         while entries.is_alive(entry.folder):
             assert time.monotonic() < end
         goes_on.clear()

@@ -38,7 +38,7 @@ class Heard:
         """What is told last of so many marks, and all before it."""
         found = []
         while True:
-            result = self.told.get(timeout=60)
+            result = self.told.get(timeout=90)
             if isinstance(result, PicturePart):
                 assert result.ident == "cut own leaf"
                 assert result.size == (SIDE, SIDE)

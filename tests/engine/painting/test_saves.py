@@ -45,7 +45,7 @@ class Window:
 
     def written(self):
         """Waits until no file is being written; what was told since the last call, but of that."""
-        end = time.monotonic() + 60
+        end = time.monotonic() + 90
         while self.of(results.Writing) and self.of(results.Writing)[-1].files:
             self.deliver()
             time.sleep(0.002)
@@ -100,7 +100,7 @@ def gate(monkeypatch):
     event, real = threading.Event(), documents.save
 
     def held(path, *rest):
-        event.wait(30)
+        event.wait(90)
         real(path, *rest)
 
     monkeypatch.setattr(documents, "save", held)

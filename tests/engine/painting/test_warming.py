@@ -104,5 +104,5 @@ def test_a_program_that_ends_meanwhile_tells_no_fault(monkeypatch):
     monkeypatch.setattr("concurrent.futures.thread._shutdown", True)  # as when the interpreter ends
     warming = Warming(sent.append)
     warming.handlers[q.GetReady](q.GetReady())
-    warming._thread.join(60.0)
+    warming._thread.join(90.0)
     assert sent == [results.GotReady()]
