@@ -1,4 +1,4 @@
-"""Keeping a written texture: a button that asks for a name under which it is among one's own, or for a file to share."""
+"""Keeping a written texture: a button asks for a name under which it is among one's own, or for a file to share."""
 
 from __future__ import annotations
 
