@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar, cast
 
 import numpy as np
 
@@ -16,7 +16,7 @@ _OVERHEAD = 400  # bytes of what is kept about each, roughly
 _P = ParamSpec("_P")
 _Made = TypeVar("_Made")
 
-REMEMBERED: Recent[Any] = Recent(lambda: _MOST, _LEAST)
+REMEMBERED: Recent[tuple[object]] = Recent(lambda: _MOST, _LEAST)
 
 
 def remembered(make: Callable[_P, _Made]) -> Callable[_P, _Made]:
@@ -32,8 +32,7 @@ def remembered(make: Callable[_P, _Made]) -> Callable[_P, _Made]:
         if known is None:
             known = (make(*args, **named),)
             REMEMBERED.keep(key, known, _OVERHEAD + bytes_of(known))
-        made: _Made = known[0]
-        return made
+        return cast("_Made", known[0])
 
     return known_or_made
 
