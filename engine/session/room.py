@@ -71,7 +71,7 @@ class Room(Owned):
                 self._page(True)  # else by and by, from the next command on
             self._left = memory.resident()
             self._took = time.monotonic() - self._looked
-        elif self._paging.wanted > 0:
+        elif self._paging.wanted > 0 or self.history.tight:
             self._page(False)
         if held < most // 2:  # beyond, every small page counts
             large_pages.ask_ahead(held)
@@ -93,10 +93,13 @@ class Room(Owned):
         return over
 
     def _page(self, crowded: bool) -> None:
-        """Makes records smaller for as long as took what was done since it was asked for last, so that it keeps up with
-        what is stored; never long, unless the process is crowded."""
-        worked = time.thread_time() - self._since
-        self._paging.step(_PAGED_AT_ONCE, worked if crowded else min(worked, _UNFELT))
+        """Makes records smaller, then old steps, for as long as took what was done since it was asked for last, so that
+        it keeps up with what is stored; never long, unless the process is crowded."""
+        now = time.thread_time()
+        seconds = now - self._since if crowded else min(now - self._since, _UNFELT)
+        self._paging.step(_PAGED_AT_ONCE, seconds)
+        while self.history.tight and time.thread_time() < now + seconds and self.history.pending:
+            self.history.step()  # who never rests has none made smaller else but by the newest
 
     def _spare(self, held: int, most: int) -> None:
         """Has pages of large arrays go back as soon as they are freed where little room is left, which is slower."""

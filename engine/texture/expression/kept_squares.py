@@ -10,9 +10,10 @@ from engine.numeric.address import TILE, Rect
 from engine.numeric.recent import Recent
 
 _KEPT = 64 << 20  # bytes of squares of all that is drawn
+_LEAST = 32 << 20  # bytes that stay where memory is short: about what a stroke asks for, which may take seconds to make
 _WORTH = 8  # of a square: what is asked for less of it is not kept
 
-SQUARES: Recent[np.ndarray] = Recent(lambda: _KEPT)
+SQUARES: Recent[np.ndarray] = Recent(lambda: _KEPT, _LEAST)
 
 
 def from_squares(draw: Callable[..., np.ndarray], about: tuple[Hashable, ...], channels: int, rect: Rect) -> np.ndarray:

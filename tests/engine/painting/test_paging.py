@@ -136,14 +136,14 @@ def test_a_process_that_takes_too_much_pages_what_is_painted(monkeypatch):
         session.do(stroke(n))
     room, before = session.room, contents(session.painting)
     for number in range(3):  # of written textures, as strokes and views asked for them
-        SQUARES.keep(number, np.zeros(1), 1 << 20)
+        SQUARES.keep(number, np.zeros(1), 20 << 20)
     held = made_held()
-    assert held >= 3 << 20
+    assert held >= 60 << 20
     assert all(isinstance(record.held, np.ndarray) for record in records(session.painting))
     monkeypatch.setattr(memory, "budget", lambda: 0)
     monkeypatch.setattr(memory, "PROGRAM", 0)
     room.keep_within(session.painting.root)
-    assert made_held() <= held - (2 << 20)
+    assert made_held() <= held - (20 << 20)
     while room.pending:
         room.step()
     assert all(isinstance(record.held, CodedData) or record.data.nbytes < 2048 for record in records(session.painting))
@@ -254,6 +254,22 @@ def test_paging_is_spread_over_commands_none_of_which_takes_much_longer(monkeypa
     assert (max(spent for _, spent in took) > 0.03) == (longest > 0.03)
     assert all(isinstance(record.held, CodedData) or record.data.nbytes < 2048 for record in records(session.painting))
     assert contents(session.painting) == before
+
+
+def test_old_steps_are_made_smaller_though_nobody_rests(monkeypatch):
+    session, now = begun(), [0.0]
+    for n in range(30):
+        session.do(stroke(n))
+    session.do(c.Undo(20))  # steps that no new one has made smaller
+    monkeypatch.setattr("time.thread_time", lambda: now.append(now[-1] + 0.001) or now[-1])
+    monkeypatch.setattr(rooms, "_most", lambda: memory.resident() - (20 << 20))
+    room, held = Room(session.cache, session.history), session.history.held
+    for _ in range(60):
+        now.append(now[-1] + 0.2)
+        room.keep_within(session.painting.root)
+    assert session.history.tight
+    assert not session.history.pending
+    assert session.history.held < held / 2
 
 
 def test_records_stay_in_memory_where_the_disk_is_full(disk, monkeypatch):
