@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import cast
 
 import numpy as np
@@ -13,6 +13,7 @@ from engine.brush import sway, tones
 from engine.brush.ink import Ink, Texture, refuse_ways, resolve
 from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.memo import remembered
 from engine.texture.image import ImageSource
 from engine.texture.record import Instance
 
@@ -72,7 +73,7 @@ class Mixture:
         return all(_single(cast(Hashable, part.instance), self.level) for part in self.ink.loaded)
 
 
-@lru_cache(256)
+@remembered
 def _single(made: Hashable, level: int) -> bool:
     """Tells whether a texture has one number a pixel."""
     return len(cast(Instance, made).appearance(level, Rect(0, 0, 1, 1))) == 1

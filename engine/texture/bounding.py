@@ -26,6 +26,7 @@ from engine.numeric import shaping
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.functions import functions
+from engine.numeric.memo import remembered
 from engine.numeric.wave import UNIT
 from engine.texture.expression.placing.generated import Generated
 from engine.texture.expression.written_ink import Expression
@@ -117,7 +118,7 @@ def _picture(made: Image | Cover, level: int, rect: Rect | None = None) -> Bound
     return Bound(*_summed(steps[max(0, level - made.base) :]))
 
 
-@lru_cache(maxsize=64)
+@remembered
 def _picture_steps(made: Image | Cover) -> tuple[tuple[float, float], ...]:
     """Returns (most, rms) of what each of a picture's levels adds, the coarsest first."""
     sizes = [plane.shape[1:] for plane in picture_pyramid(made.source, made.period)[1:]]

@@ -173,6 +173,11 @@ class _Picture:
         return (self.kind, self.base, self.period, self.source.name, self.source.sha)
 
     @property
+    def told_apart(self) -> tuple[object, ...]:
+        """Tells it apart from others, without its pixels."""
+        return (self.kind, self.base, self.period, self.source.told_apart)
+
+    @property
     def refinements(self) -> int:
         """Tells how many levels finer than its base the picture has pixels for."""
         return 0 if not self.source.there else _refinements(self.source, self.period)

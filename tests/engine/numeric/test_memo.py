@@ -6,7 +6,7 @@ import pytest
 from engine.numeric import memo as module
 from engine.numeric.recent import Recent
 from engine.session.coding.made_again import forget_made, made_held
-from engine.texture.image import ImageSource
+from engine.texture.image import Cover, Image, ImageSource
 
 
 @pytest.fixture(autouse=True)
@@ -64,4 +64,8 @@ def test_a_picture_is_known_by_its_name_and_hash_and_not_kept(own):
     make(second)
     make(ImageSource("a", first.sha))  # of which only the name is there
     assert len(calls) == 2
-    assert own.held < 2000
+    make(Image(0, 8, first))
+    make(Image(0, 8, second))
+    make(Cover(0, 8, second))
+    assert len(calls) == 4
+    assert own.held < 3000

@@ -14,6 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from engine.numeric.address import TILE, Rect
+from engine.numeric.memo import remembered
 from engine.numeric.pyramid import reduce
 from engine.texture.expression.kept_squares import from_squares
 from engine.texture.image import Image, ImageSource
@@ -171,7 +172,7 @@ def _grouped(x: np.ndarray, y: np.ndarray, side: int, size: tuple[int, int]) -> 
     ]
 
 
-@lru_cache(64)
+@remembered
 def _folded(one: Elsewhere, level: int) -> np.ndarray:
     """Returns all that there is of a level above 0 of something that is tiled: float32 (channels, h, w)."""
     return _drawn(one, level, Rect.at(0, 0, max(1, one.unit >> -level), one.tiled))
