@@ -19,7 +19,9 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import suppress
+from itertools import pairwise
 from pathlib import Path
+from statistics import mean
 from typing import Any
 
 from bench.display import display, python
@@ -87,12 +89,12 @@ def verdict(rows: list[dict[str, Any]], pings: list[float], budget: int) -> dict
     """What `rows`, of which the program has told, and pings come to: whether it kept within a budget of MB and the
     program's own, grew no more in the second half of the time, and answered in time."""
     totals = [row["resident"] for row in rows] or [0.0]
-    half = totals[len(totals) // 2 :]
-    quarter = max(1, len(half) // 2)
-    third, last = sum(half[:quarter]) / quarter, sum(half[-quarter:]) / quarter
-    told = {"most": max(totals), "allowed": budget + PROGRAM // MEGABYTE, "third quarter": round(third, 1)}
-    told |= {"last quarter": round(last, 1), **percentiles(pings)}
-    small, steady = told["most"] <= told["allowed"], last <= STEADY * third
+    bounds = [len(totals) * quarter // 4 for quarter in range(5)]
+    quarters = [mean(totals[at:end] or totals[-1:]) for at, end in pairwise(bounds)]
+    most = budget + PROGRAM // MEGABYTE
+    told: dict[str, Any] = {"most": max(totals), "allowed": most, "above": sum(total > most for total in totals)}
+    told |= {"quarters": [round(total, 1) for total in quarters], **percentiles(pings)}
+    small, steady = told["most"] <= most, quarters[3] <= STEADY * quarters[2]
     return told | {"small": small, "steady": steady, "answers": told["ping 95 %"] <= BOUND}
 
 

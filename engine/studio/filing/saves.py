@@ -82,6 +82,7 @@ class Saves(Owned):
         self._known = True  # whether the session's log leads from nothing to the painting
         self._running = self._closing = False
         self._waiting: dict[Path, _Asked] = {}
+        easel.aside.append(lambda: [asked.painting.root for asked in self._waiting.values()])
         self.mark: Callable[[], Callable[[Path], None]] = lambda: lambda path: None  # what hears that it is saved
         self.replaces: Callable[[Path], Callable[[], None]] = lambda path: lambda: None  # what waits before that
         self.handlers: dict[type, Callable[[q.Save], None]] = {q.Save: self._save}
