@@ -36,7 +36,7 @@ _WHOLE = TEXELS + 2 * TEXEL_RIM
 _COARSE = 0.75  # of width and height, that are drawn while the eye moves where the processor fills the pixels
 _STOPS = 0.12  # seconds without a move after which all pixels are
 _WAITED = 0.0005  # seconds: pixels that were waited for no longer may have been filled long before
-_AT_ONCE = 16  # tiles that a software renderer is told of before it fills their pixels, beside what comes next
+_TILES_A_FLUSH = 16  # tiles that a software renderer is told of before it fills their pixels, beside what comes next
 _SETTLES = 1.0  # seconds after the last tile that has come, in which neighbours may still show another painting
 _SKY = 24, 16  # columns and rows of the sky's corners
 _BARE = 6 * QUADS * QUADS  # corners of a tile's triangles but for its skirts'
@@ -198,7 +198,7 @@ class LandScreen:
         corners = 3 * len(triangles()) if hangs else _BARE
         state.triangles = corners // 3 * len(held)
         for n, (key, kept) in enumerate(held):
-            if n % _AT_ONCE == _AT_ONCE - 1:
+            if n % _TILES_A_FLUSH == _TILES_A_FLUSH - 1:
                 self._flush()
             placed, card = at.place(key, kept.tile.base, sight), self._on_card(program, kept.tile)
             program["corner"], program["sides"] = placed.corner, (placed.step, placed.unit)

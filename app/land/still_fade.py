@@ -10,6 +10,7 @@ from app.desk.land.land_state import LandState
 from engine.studio.land.land_records import StillCome
 
 SECONDS = 0.35
+_AS_IT_IS = 1.0, 1.0, 0.0, 0.0  # how the picture while the eye moves is looked up
 
 
 class StillFade:
@@ -20,6 +21,8 @@ class StillFade:
         self._sources = tuple(shader_source(name) for name in ("still.vert", "still.frag", "moving.frag"))
         self._program: moderngl.Program | None = None
         self._still: moderngl.Texture | None = None
+        self._before: moderngl.Texture | None = None  # over which the last one comes
+        self._lower = _AS_IT_IS
         self._shown: StillCome | None = None
         self._since = 0.0
         self._part = 0.0
@@ -34,14 +37,29 @@ class StillFade:
         """Takes over which picture is there; True if it is another one, or more of it is seen."""
         still, before = state.still, self._part
         if still is not self._shown:
-            if still is None or self._shown is None:
+            over = still is not None and still.last and self._part == 1.0 and self._still is not None
+            if still is None or self._shown is None or over:
                 self._since = now
+            self._keep() if over else self._let_go()
             self._shown = still
             if still is not None:
                 self._hang(still, state.size)
             before = -1.0
         self._part = 0.0 if self._shown is None else min(1.0, (now - self._since) / SECONDS)
+        if self._part == 1.0:
+            self._let_go()
         return self._part != before
+
+    def _keep(self) -> None:
+        """Has the next picture come over the one that is seen."""
+        self._let_go()
+        self._before, self._still = self._still, None
+        self._lower = self._reach[0], -self._reach[1], 0.0, self._reach[1]
+
+    def _let_go(self) -> None:
+        if self._before is not None:
+            self._before.release()
+        self._before, self._lower = None, _AS_IT_IS
 
     def _hang(self, still: StillCome, size: tuple[int, int]) -> None:
         high, wide = still.pixels.shape[:2]
@@ -59,12 +77,13 @@ class StillFade:
         if self._program is None:
             self._begin()
         assert self._program is not None
-        moving.use(0)
-        if self._still is None or self._shown is None or self._part == 0.0:
+        (self._before or moving).use(0)
+        if self._still is None or self._shown is None or (self._part == 0.0 and self._before is None):
             self._alone.render(moderngl.TRIANGLE_STRIP)
             return
         self._still.use(1)
         self._program["part"], self._program["reach"] = self._part, self._reach
+        self._program["lower"] = self._lower
         self._both.render(moderngl.TRIANGLE_STRIP)
 
     def _begin(self) -> None:
@@ -74,4 +93,4 @@ class StillFade:
         self._both, self._alone = (
             self._ctx.vertex_array(program, [(corners, "2f", "at")]) for program in (self._program, one)
         )
-        self._program["moving"], self._program["still"], one["moving"] = 0, 1, 0
+        self._program["under"], self._program["still"], one["moving"] = 0, 1, 0

@@ -69,7 +69,7 @@ def camera_before(level: int, rect: Rect, land: Land, size: tuple[int, int]) -> 
 class Windows:
     """Nested windows of land around a camera, as `engine.terrain.caster` has them; `colours` uint8; `levels` of each;
     `eye`: how high the camera is, `sea`: how high the water lies, both above the camera's foot, in pixels of the
-    finest level."""
+    finest level; `base`: how high that foot is, pixels of level 0, `about`: to what."""
 
     heights: np.ndarray
     tops: np.ndarray
@@ -79,6 +79,8 @@ class Windows:
     levels: tuple[int, ...]
     eye: float
     sea: float
+    base: float
+    about: Pixel | None
 
 
 def windows_of(
@@ -124,7 +126,7 @@ def windows_of(
         places.append(place)
     eye = math.ldexp(camera.height, finest - camera.level)
     sea = math.ldexp(-base, finest) if wet else -math.inf
-    return Windows(heights, tops, np.stack(mips), np.array(places), colours, levels, eye, sea)
+    return Windows(heights, tops, np.stack(mips), np.array(places), colours, levels, eye, sea, base, about)
 
 
 def _pixel_of(camera: Camera, level: int) -> Pixel:
@@ -190,13 +192,13 @@ def _nested(fine: Sheet, coarse: Sheet, natural: bool) -> tuple[np.ndarray, np.n
     part = (off * off * (3.0 - 2.0 * off)).astype(np.float32)
     ratio = fine[2][2] / coarse[2][2]
     columns, rows = ((fine[2][a] - coarse[2][a]) / coarse[2][2] + here * ratio for a in range(2))
-    above = _resampled(coarse[0], rows, columns) / np.float32(ratio)
-    under = _resampled(coarse[1], rows, columns)
+    above = resampled(coarse[0], rows, columns) / np.float32(ratio)
+    under = resampled(coarse[1], rows, columns)
     own = part * (0.4 if natural else 1.0)
     return above + part * (fine[0] - above), under + own[:, :, None] * (fine[1] - under)
 
 
-def _resampled(values: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+def resampled(values: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
     """Returns values between samples, linearly; those beyond the rim are at it."""
     for axis, where in enumerate((rows, columns)):
         last = values.shape[axis] - 1

@@ -12,7 +12,7 @@ from engine.terrain.beams import clear_until
 from engine.terrain.caster import between, nearest_land
 
 # Of the numbers that a picture is made with.
-SUN_X, SUN_Y, SUN_Z, CONE, HAZE, SEA, TOP_HEIGHT, FARTHEST, FROM_SAMPLE, TO_SAMPLE = range(10)
+SUN_X, SUN_Y, SUN_Z, CONE, HAZE, SEA, TOP_HEIGHT, FARTHEST, FROM_SAMPLE, TO_SAMPLE, PIXEL = range(11)
 _SUN_RADIUS = 0.018  # radians: larger than the sun's, as haze makes it
 _DARKEST = 0.42  # of the sky's light that reaches the deepest hollow
 _MELTING = 12000.0  # an eighth of the farthest, the window's half, is seen by a twentieth
@@ -173,7 +173,7 @@ def _water(
     to: np.ndarray,
 ) -> None:
     """What still water at a place shows: what it mirrors, itself, and the sun."""
-    light, cone = numbers[:3], numbers[CONE]
+    light, cone, pixel = numbers[:3], numbers[CONE], numbers[PIXEL]
     to[0], to[1], to[2] = d[0], d[1], max(1e-4, -d[2])
     far = min(numbers[FARTHEST], max(0.0, (numbers[TOP_HEIGHT] - p[2]) / to[2]))
     t2, w = nearest_land(heights, tops, mips, places, p, to, 0.05 * s, far, cone, NEAR)
@@ -182,7 +182,7 @@ def _water(
     else:
         s2 = places[w, 2]
         x, y = (p[0] + t2 * to[0] - places[w, 0]) / s2, (p[1] + t2 * to[1] - places[w, 1]) / s2
-        wide = cone * (t + t2) / s2
+        wide = pixel * (t + t2) / s2
         gx, gy = _slope(heights[w], x, y, wide)
         _ground(heights[w], colours[w], x, y, wide, gx, gy, max(0.0, _facing(gx, gy, light)), other)
         _hazy(other, t2, to, light, numbers[HAZE])
@@ -223,7 +223,7 @@ def _seen(
         _sky(d, light, out)
         return
     s = places[w, 2]
-    wide = cone * t / s
+    wide = numbers[PIXEL] * t / s
     for c in range(3):
         p[c] = o[c] + t * d[c]
     water = p[2] <= sea + 1e-3 * s

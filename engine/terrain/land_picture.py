@@ -14,6 +14,7 @@ import numpy as np
 from engine.files.fault import Cancelled
 from engine.terrain import daylight
 from engine.terrain.camera import Camera, Windows, windows_of
+from engine.terrain.caster import CELLS_PER_PIXEL
 from engine.terrain.drape import Cover
 from engine.terrain.plane import Land
 
@@ -129,8 +130,11 @@ def eye_of(windows: Windows, shot: Shot, by: int) -> np.ndarray:
     return np.stack([np.array([0.0, 0.0, windows.eye]), right, up, corner + 0.5 * right - 0.5 * up])
 
 
-def numbers_of(windows: Windows, shot: Shot, wide: float, samples: tuple[int, int]) -> np.ndarray:
-    """Returns the numbers that a picture is made with, as `daylight` has them."""
+def numbers_of(
+    windows: Windows, shot: Shot, wide: float, samples: tuple[int, int], cells: float = CELLS_PER_PIXEL
+) -> np.ndarray:
+    """Returns the numbers that a picture is made with, as `daylight` has them; `cells`: of a window to a pixel, at
+    most."""
     azimuth, altitude = (math.radians(v) for v in shot.sun)
     flat = math.cos(altitude)
     sun = flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(altitude)
@@ -140,7 +144,7 @@ def numbers_of(windows: Windows, shot: Shot, wide: float, samples: tuple[int, in
     highest = float((windows.tops[:, -1] * windows.places[:, 2]).max()) + 1e-3
     far = 4.0 * sides * len(windows.heights[0])
     sea = max(windows.sea, -1e30)
-    return np.array([*sun, cone, haze, sea, highest, far, *samples])
+    return np.array([*sun, cone * (CELLS_PER_PIXEL / cells), haze, sea, highest, far, *samples, cone])
 
 
 def developed(light: np.ndarray, samples: int) -> np.ndarray:

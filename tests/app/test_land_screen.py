@@ -8,7 +8,9 @@ import pytest
 
 from app.desk.land.land_state import LandState
 from app.land.land_screen import LandScreen
+from app.land.still_fade import SECONDS, StillFade
 from engine.numeric.address import Rect
+from engine.studio.land.land_records import StillCome
 from engine.terrain.land_picture import developed
 from engine.terrain.seen.choosing import choose_tiles
 from engine.terrain.seen.eye import Eye
@@ -84,3 +86,27 @@ def test_where_the_processor_fills_pixels_they_are_fewer_as_long_as_the_eye_move
     assert screen.draw(desk, 9.51)
     assert len(screen.picture()) == 96 * 64 * 3
     screen.forget()
+
+
+def test_the_last_picture_at_rest_comes_over_the_one_before(context):
+    fade, frame = StillFade(context), context.framebuffer([context.texture((8, 8), 3)])
+    moving = context.texture((8, 8), 3, b"\x40" * 192)
+    half = np.zeros((8, 8, 3), np.uint8)
+    half[:4] = 200
+    state = SimpleNamespace(still=StillCome(1, half, 1, False), size=(8, 8))
+
+    def seen(now):
+        fade.follow(state, now)
+        frame.use()
+        fade.draw(moving)
+        rows = np.frombuffer(frame.read(), np.uint8).reshape(8, 8, 3)[::-1, 4, 0].tolist()
+        return rows[1], rows[6], fade.moving
+
+    assert seen(0.0) == (64, 64, True)
+    assert seen(1.0) == (200, 0, False)
+    state.still = StillCome(1, np.full((8, 8, 3), 100, np.uint8), 1, True)
+    assert seen(2.0) == (200, 0, True)
+    assert seen(2.0 + SECONDS / 2) == (150, 50, True)
+    assert seen(3.0) == (100, 100, False)
+    state.still = None
+    assert seen(3.1) == (64, 64, False)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import logging
 import math
-import os
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -35,6 +34,7 @@ from engine.journal.records import Kind, told_object
 from engine.journal.volume import Volume
 from engine.journal.writing import RETRY
 from engine.keeping import memory
+from engine.keeping.giving_way import give_way
 from engine.numeric.colour import to_rgba8
 from engine.painting.grown import waiting
 from engine.painting.rendering import strips
@@ -50,7 +50,6 @@ PAUSE_FACTOR = 1.0  # times as long as a checkpoint took until the next is begun
 PICTURE_PAUSE = 5.0  # seconds between two small pictures, at least
 PREPARING = 0.25  # seconds from one look at whether kernels are still being compiled, or a file written, to the next
 _MOST_FAILURES = 5  # each of which doubles the time until a checkpoint is tried again
-_NICE = 10
 LULL = 2.0  # seconds from when a checkpoint gave way to the next, at least
 
 
@@ -71,7 +70,7 @@ class Beside(Owned):
         wake: Callable[[], None] = lambda: None,
     ) -> None:
         self._journal, self._entry = journal, journal.entry
-        self._pool = ThreadPoolExecutor(1, "inkfall beside", initializer=_yield)
+        self._pool = ThreadPoolExecutor(1, "inkfall beside", initializer=give_way)
         self._closing = threading.Event()
         self._is_compiling, self._wake = is_compiling, wake
         self._opened = Opened(journal, self.do, wake)
@@ -244,12 +243,6 @@ def _checkpoint(journal: Journal, entry: Volume, about: _Generation) -> _Ended:
     _tried(partial(in_folder, entry, write))
     memory.settle()
     return _Ended(time.monotonic() - start if written else None, not written and (gave_way or not SAVING.free))
-
-
-def _yield() -> None:
-    """Lets threads that paint go first, where the system can tell threads apart."""
-    with suppress(OSError, AttributeError):
-        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)
 
 
 def _tried(job: Callable[[], None]) -> None:

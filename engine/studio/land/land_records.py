@@ -58,8 +58,8 @@ class GroundFound:
 @dataclass(frozen=True, slots=True)
 class StillCome:
     """The picture of that number, sharper than the one before: uint8 (h, w, 3), a pixel of which is `by` of the
-    window's; `error`: pixels of the window by which the land lies elsewhere, as a rule and at most, None where that is
-    not known."""
+    window's; `last`: no sharper one comes; `error`: pixels of the window by which the land lies elsewhere, as a rule
+    and at most, None where that is not known."""
 
     number: int
     pixels: np.ndarray

@@ -12,6 +12,7 @@ from fractions import Fraction
 from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.files.fault import Cancelled
+from engine.keeping.giving_way import give_way
 from engine.keeping.memory import give_back
 from engine.numeric.address import Rect
 from engine.painting.value import Painting
@@ -21,11 +22,13 @@ from engine.studio.requests import Handlers
 from engine.studio.results import frozen
 from engine.terrain.camera import CELLS, Camera, Windows, windows_of
 from engine.terrain.drape import cover_of
+from engine.terrain.finer_land import FinerPicture, roomy
 from engine.terrain.land_picture import Shot, refinement
 from engine.terrain.picture_error import picture_error
 from engine.terrain.plane import land
 
 _SAMPLES = 16
+_FINE = 0.3  # pixels by which land may lie elsewhere, as a rule, in the last picture
 _CACHE = 32 << 20  # bytes
 _COARSER_FIRST = 4  # pixels to one of the picture that comes first
 
@@ -85,5 +88,11 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
     found = picture_error(seen, windows, camera, request.size)
     error = None if found is None else (found.rms, found.hard)
     for stage in refinement(windows, shot, wide, gone, quarter=False):
-        last = stage.samples == _SAMPLES
+        last = stage.samples == _SAMPLES and (found is None or found.rms <= _FINE)
         send(StillCome(request.number, frozen(stage.picture), stage.by, last, error))
+    if found is not None and not last:
+        give_way()
+        windows = roomy(windows)
+        picture, found = FinerPicture(seen, windows, shot, wide, gone).over(stage.picture, found)
+        error = None if found is None else (found.rms, found.hard)
+        send(StillCome(request.number, frozen(picture), stage.by, True, error))

@@ -14,6 +14,9 @@ from engine.session.session import Session
 from engine.terrain.camera import Camera, windows_of
 from engine.terrain.caster import cast
 from engine.terrain.drape import cover_of
+from engine.terrain.finer_land import FinerPicture, roomy
+from engine.terrain.height_window import in_pixels
+from engine.terrain.land_picture import Shot
 from engine.terrain.picture_error import picture_error
 from engine.terrain.plane import land
 
@@ -101,3 +104,39 @@ def test_a_sharp_picture_has_more_land_near_the_eye_and_not_too_much_in_all(seen
     assert (sides[0][:8] == 4.0 ** np.arange(8)).all()
     assert (sides[1][:8] == 2.0 ** np.arange(8)).all()
     assert sides[1][-1] > 2.0**24  # as far as without
+
+
+SMALL = 64, 40
+
+
+def finer(seen, cancelled=None):
+    """Windows of a small picture, the error of it, the finer picture, and its error."""
+    camera = Camera(0, Fraction(128), Fraction(128), 12.0, 0.0, -24.0, 55.0)
+    made = roomy(windows_of(seen, camera, cover_of(seen, False), camera.finest(SMALL), cells=256, sharp=True))
+    usual = picture_error(seen, made, camera, SMALL)
+    flat = np.zeros((SMALL[1], SMALL[0], 3), np.uint8)
+    return made, usual, *FinerPicture(seen, made, Shot(camera, SMALL, 1), 256, cancelled).over(flat, usual)
+
+
+def test_the_last_picture_shows_finer_land_with_the_same_bits_for_any_number_of_threads(seen, monkeypatch):
+    laid, lay = [], FinerPicture._lay
+
+    def noted(picture, pool, one, grid, w):
+        done = lay(picture, pool, one, grid, w)
+        laid.append((one, grid, done[-1][0], picture._windows.heights[w].copy()))
+        return done
+
+    monkeypatch.setattr(FinerPicture, "_lay", noted)
+    made, usual, picture, error = finer(seen)
+    assert error.rms < 0.4 * usual.rms
+    assert error.hard <= usual.hard
+    assert (picture.min(axis=2)[20:] > 0).all()
+    for one, grid, run, heights in laid[:: max(1, len(laid) // 4)]:
+        area = Rect.at(grid.x + one.left + run.x0, grid.y + one.top + run.y0, run.width, run.height)
+        told = in_pixels(seen.height(grid.level, area) - made.base, grid.level).astype(np.float32)
+        assert np.array_equal(heights[run.y0 : run.y1, run.x0 : run.x1], told)
+    monkeypatch.setattr("engine.terrain.finer_land._THREADS", 1)
+    assert np.array_equal(finer(seen)[2], picture)
+    asked = iter([False] * 5)
+    with pytest.raises(Cancelled):
+        finer(seen, lambda: next(asked, True))
