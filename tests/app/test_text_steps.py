@@ -49,6 +49,14 @@ def test_a_pause_a_row_and_taking_away_are_steps():
     assert [steps.back(count) for count in (4, 3, 2, 1)] == [3, 2, 1, 0]
 
 
+def test_what_is_put_there_is_a_step():
+    steps = TextSteps()
+    texts = typed(steps, "ab")
+    steps.end()
+    steps.note(2, 1, Typed(1, (0, 3), "abc", 0.3))
+    assert taken_back(steps, [*texts, "abc"]) == ["ab", ""]
+
+
 @given(KEYS, st.integers(1, 6))
 def test_forth_is_as_far_as_back(keys, back):
     steps, text, now = TextSteps(), "", 0.0

@@ -84,7 +84,9 @@ class TextField:
         else:
             self._editor.select_all()
             self._editor.replace_text_in_current_cursor(text)
+        self._steps.end()
         self._note()
+        self._steps.end()
         self._editor.set_cursor(At(0, 0))
         self._text = self._editor.get_text()
         self._completion.close()

@@ -32,6 +32,10 @@ class TextSteps:
             self._starts.append(count)
         self._last = typed if more == abs(typed.grown) else None
 
+    def end(self) -> None:
+        """Has the next change be a step of its own, whatever it is like."""
+        self._last = None
+
     def back(self, count: int) -> int:
         """Returns how many of the editor's own steps there are when one is taken back."""
         self._last = None
