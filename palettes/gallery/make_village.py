@@ -13,8 +13,15 @@ from typing import Any
 FOLDER = Path(__file__).resolve().parent
 FRAME = (1280, 800)
 SEED = 5
+VAPOUR: dict[str, Any] = {
+    "flow": 0.2,
+    "hardness": 0,
+    "shape": {"ratio": 0.62, "scatter": 1.1, "count": 3},
+    "dynamics": {"radius": "pressure"},
+}
 Points = list[tuple[float, float, float]]
 GENERATORS = ("houses", "trees", "conifers", "hedge", "meadow", "reeds", "fence", "stone-wall", "path", "stones")
+BLADES = {"do": "texture", "name": "grass", "maker": "expression", "bundled": "grass", "period": 40}
 
 
 def line(*places: tuple[float, float, float]) -> Points:
@@ -42,60 +49,132 @@ def brushed(layer: str, points: Points, radius: float, colour: str, **more: Any)
 
 
 def placed(layer: str, name: str, radius: float, points: Points, **values: float) -> dict[str, Any]:
-    """A stroke of a generator, as thick as it is pressed."""
+    """A stroke of a generator, as thick as it is pressed, with houses of its own."""
     ink = [{"texture": name, **({"values": values} if values else {})}]
     brush = {"mode": "generate", "radius": radius, "spacing": 0.1, "ink": ink, "dynamics": {"radius": "pressure"}}
-    return {"do": "stroke", "layer": layer, "points": points, "brush": brush}
+    return {"do": "stroke", "layer": layer, "points": points, "brush": brush, "seed": round(points[0][0])}
+
+
+def soft(points: Points, radius: float, colour: str, opacity: float) -> dict[str, Any]:
+    """A stroke of light or shade over the hills."""
+    return brushed("Hills", points, radius, colour, hardness=0, opacity=opacity, flow=0.5)
+
+
+def heap(x: float, y: float, wide: float, high: float, seed: int) -> Points:
+    """A line over which a cloud heaps up: thin at both ends, with humps between."""
+    places = []
+    for k in range(13):
+        t, hump = k / 12, 0.5 + 0.5 * math.sin(1.9 * k + seed)
+        swell = math.sin(math.pi * t) ** 0.7
+        places.append((x + wide * t, y - high * swell * (0.35 + 0.65 * hump), 0.08 + 0.92 * swell * (0.4 + 0.6 * hump)))
+    return line(*places)
+
+
+def cloud(points: Points, radius: float) -> list[dict[str, Any]]:
+    """A heaped cloud: its shaded base, its body, and its lit tops."""
+    layers = (0.3, 0.95, "#b9c3cf", 0.42), (0.0, 1.0, "#f1eae2", 0.55), (-0.36, 0.66, "#fff8ec", 0.62)
+    return [
+        brushed(
+            "Sky",
+            [(x - 0.1 * radius, y + rise * radius * p, p) for x, y, p in points],
+            radius * size,
+            colour,
+            opacity=opacity,
+            **VAPOUR,
+        )
+        for rise, size, colour, opacity in layers
+    ]
 
 
 def sky() -> list[dict[str, Any]]:
-    ramp = [[0, "#6b9aca"], [0.35, "#9fc0dc"], [0.7, "#e2e2d6"], [1, "#f3e2c0"]]
-    blue = {"do": "texture", "name": "dusk", "maker": "gradient", "from": [0, 0], "to": [0, 430], "ramp": ramp}
-    wide = brushed("Sky", [(-300.0, 240.0, 1.0), (1580.0, 240.0, 1.0)], 340, "#9fc0dc", ink=[{"texture": "dusk"}])
-    veil = {"opacity": 0.55, "flow": 0.25, "hardness": 0, "shape": {"ratio": 0.5, "scatter": 0.9, "count": 2}}
-    clouds = line((90, 165, 1), (330, 140, 1), (560, 168, 1)), line((740, 95, 1), (980, 78, 1), (1230, 110, 1))
-    return [blue, wide, *(brushed("Sky", points, 34, "#fbf4e8", **veil) for points in clouds)]
+    ramp = [[0, "#5489c4"], [0.4, "#8fb6da"], [0.72, "#d5dfde"], [1, "#f7e3bd"]]
+    blue = {"do": "texture", "name": "morning", "maker": "gradient", "from": [0, 0], "to": [0, 330], "ramp": ramp}
+    wide = brushed("Sky", [(-300.0, 240.0, 1.0), (1580.0, 240.0, 1.0)], 340, "#9fc0dc", ink=[{"texture": "morning"}])
+    veils = (560, 206, 330, 14, 1), (150, 246, 300, 8, 6), (980, 242, 330, 8, 4), (430, 268, 420, 6, 2)
+    return [
+        blue,
+        wide,
+        *cloud(heap(40, 150, 560, 44, 3), 42),
+        *cloud(heap(850, 112, 470, 52, 8), 50),
+        *(brushed("Sky", heap(*about), 15, "#fbf0e0", opacity=0.42, **VAPOUR) for about in veils),
+    ]
 
 
 def hills() -> list[dict[str, Any]]:
-    far = line((-120, 470, 1), (160, 420, 1), (420, 452, 1), (760, 400, 1), (1080, 440, 1), (1420, 400, 1))
-    near = line((-160, 760, 1), (180, 650, 1), (560, 580, 1), (900, 600, 1), (1200, 690, 1), (1450, 720, 1))
-    ink = [{"texture": "rock", "amount": 0.55, "colour": "#a8b878", "period": 120}]
-    grass = [{"texture": "rock", "amount": 0.6, "colour": "#93a850", "period": 70}]
+    far = line((-120, 372, 1), (150, 340, 1), (420, 362, 1), (760, 326, 1), (1060, 352, 1), (1420, 318, 1))
+    middle = line((-150, 452, 1), (160, 436, 1), (400, 452, 1), (860, 452, 1), (1120, 424, 1), (1450, 436, 1))
+    hill = line(
+        (-160, 800, 1), (180, 640, 1), (420, 520, 1), (640, 474, 1), (850, 520, 1), (1090, 640, 1), (1450, 790, 1)
+    )
+    rock = {"texture": "rock", "amount": 0.5, "period": 90}
+    blades = [{"texture": "grass", "amount": 0.34, "fixed": True}, {**rock, "colour": "#a9b45c"}]
+    fields = (
+        (line((20, 436, 0.2), (130, 424, 0.9), (300, 430, 0.2)), "#d3bf78"),
+        (line((960, 420, 0.2), (1080, 402, 0.9), (1230, 408, 0.2)), "#cdb873"),
+        (line((1080, 436, 0.2), (1190, 428, 0.8), (1320, 432, 0.6)), "#b7a562"),
+    )
+    pressed = {"dynamics": {"radius": "pressure"}}
+    low = [(x, max(y + 260, 820), p) for x, y, p in hill]
     return [
-        brushed("Hills", far, 70, "#7f9a9c", hardness=0.85, ink=ink),
-        brushed("Hills", [(x, y + 110, p) for x, y, p in far], 90, "#7a9468", hardness=0.6, ink=ink),
-        brushed("Hills", near, 130, "#5f7f3a", hardness=0.93, ink=grass),
-        brushed("Hills", [(x, y + 190, p) for x, y, p in near], 150, "#557436", hardness=0.8, ink=grass),
+        brushed("Hills", far, 46, "#93abbb", hardness=0.9, ink=[{**rock, "amount": 0.3, "colour": "#aabfca"}]),
+        brushed("Hills", [(x, y + 70, p) for x, y, p in far], 70, "#8fa9a6", hardness=0.5),
+        brushed("Hills", middle, 62, "#829c72", hardness=0.9, ink=[{**rock, "colour": "#a3b383"}]),
+        brushed(
+            "Hills",
+            [(x, y + 90, p) for x, y, p in middle],
+            90,
+            "#78965c",
+            hardness=0.7,
+            ink=[{**rock, "colour": "#9cae6c"}],
+        ),
+        *(brushed("Hills", points, 17, colour, hardness=0.6, opacity=0.75, **pressed) for points, colour in fields),
+        soft(line((-60, 470, 1), (300, 470, 1), (1000, 462, 1), (1340, 470, 1)), 60, "#e6dcb4", 0.4),
+        brushed("Hills", hill, 172, "#6f8d3e", hardness=0.95, ink=blades),
+        brushed("Hills", low, 240, "#5d7a36", hardness=0.8, ink=blades[1:]),
+        soft(line((180, 520, 1), (330, 430, 1), (520, 352, 1)), 90, "#e9dd84", 0.42),
+        soft(line((830, 350, 1), (980, 450, 1), (1160, 580, 1)), 100, "#26452f", 0.34),
+        soft(line((150, 640, 1), (460, 610, 1), (600, 600, 1)), 60, "#e4d87e", 0.3),
+        soft(line((-60, 800, 1), (500, 790, 1), (1340, 800, 1)), 100, "#24401f", 0.45),
     ]
 
 
 def village() -> list[dict[str, Any]]:
-    """The ten-odd strokes: from the back to the front."""
+    """The strokes of generators: from the back to the front."""
     return [
-        placed("Woods", "conifers", 42, line((20, 452, 0.7), (180, 428, 0.8), (330, 436, 0.9), (440, 452, 0.8))),
-        placed("Woods", "conifers", 42, line((900, 432, 0.7), (1040, 420, 0.8), (1180, 438, 0.9), (1290, 420, 1))),
-        placed("Houses", "houses", 62, line((470, 494, 0.66), (600, 470, 0.7), (740, 474, 0.74), (880, 500, 0.72))),
-        placed("Trees", "trees", 54, line((400, 520, 0.8), (452, 508, 0.7)), many=1),
-        placed("Trees", "trees", 56, line((905, 520, 0.9), (985, 532, 1), (1060, 556, 1)), season=0.35),
-        placed("Lower", "houses", 92, line((330, 604, 0.84), (520, 566, 0.86), (700, 574, 0.92), (830, 596, 0.9))),
-        placed("Path", "path", 72, line((640, 606, 0.22), (690, 660, 0.42), (640, 730, 0.65), (700, 830, 1))),
-        placed("Walls", "stone-wall", 58, line((735, 650, 0.8), (850, 645, 0.85), (980, 672, 0.9), (1110, 716, 1))),
-        placed("Walls", "fence", 60, line((90, 700, 1), (250, 676, 0.95), (400, 658, 0.9), (560, 662, 0.9))),
-        placed("Front", "hedge", 58, line((1010, 640, 0.85), (1130, 660, 0.95), (1260, 700, 1))),
-        placed("Front", "meadow", 96, line((-40, 770, 1), (200, 744, 1), (430, 742, 1), (560, 772, 1)), flowery=0.8),
-        placed("Front", "meadow", 96, line((800, 782, 1), (960, 770, 1), (1150, 790, 1), (1320, 800, 1)), flowery=0.6),
-        placed("Front", "stones", 60, line((770, 712, 0.7), (860, 730, 0.9), (960, 748, 1))),
-        placed("Front", "trees", 150, line((120, 780, 1), (150, 776, 1)), many=1, season=0.2),
-        placed("Front", "reeds", 80, line((1080, 800, 1), (1180, 796, 1), (1300, 806, 1))),
+        placed("Woods", "conifers", 24, line((20, 404, 0.6), (160, 400, 0.8), (330, 412, 0.7))),
+        placed("Woods", "conifers", 26, line((930, 404, 0.7), (1100, 384, 0.8), (1290, 392, 1)), many=0.8),
+        placed("Top", "trees", 34, line((430, 352, 0.7), (500, 328, 0.9), (560, 318, 0.8)), season=0.45, many=0.8),
+        placed("Top", "houses", 40, line((556, 330, 0.8), (640, 316, 0.9), (760, 330, 0.8))),
+        placed("Top", "trees", 38, line((770, 346, 0.9), (826, 360, 0.8)), season=0.3),
+        placed(
+            "Path",
+            "path",
+            80,
+            line((690, 352, 0.12), (800, 420, 0.2), (600, 480, 0.28), (690, 590, 0.45), (560, 690, 0.7), (660, 840, 1)),
+        ),
+        placed("Houses", "houses", 62, line((416, 436, 0.8), (520, 416, 0.82), (640, 406, 0.78))),
+        placed("Houses", "trees", 46, line((360, 470, 0.8), (404, 452, 0.7)), season=0.6),
+        placed("Houses", "houses", 62, line((800, 430, 0.74), (900, 450, 0.8))),
+        placed("Houses", "trees", 48, line((936, 478, 0.9), (1010, 506, 1)), season=0.2),
+        placed("Lower", "houses", 90, line((300, 574, 0.84), (430, 548, 0.88), (540, 540, 0.9))),
+        placed("Lower", "houses", 90, line((760, 552, 0.84), (880, 574, 0.86))),
+        placed("Walls", "stone-wall", 50, line((770, 606, 0.8), (880, 622, 0.85), (1000, 660, 0.95), (1120, 724, 1))),
+        placed("Walls", "fence", 54, line((60, 700, 1), (210, 668, 0.95), (360, 646, 0.9), (500, 640, 0.85)), worn=0.2),
+        placed("Front", "hedge", 56, line((1000, 612, 0.8), (1120, 650, 0.95), (1270, 710, 1)), bloom=0.4),
+        placed("Front", "meadow", 92, line((-40, 780, 1), (180, 750, 1), (380, 748, 1), (500, 780, 1)), flowery=0.8),
+        placed("Front", "meadow", 92, line((760, 770, 1), (930, 764, 1), (1130, 786, 1), (1320, 800, 1)), flowery=0.65),
+        placed("Front", "stones", 44, line((740, 700, 0.8), (830, 716, 0.9), (900, 740, 1)), many=0.5),
+        placed("Front", "trees", 150, line((96, 784, 1), (116, 782, 1)), many=1, season=0.2),
+        placed("Front", "reeds", 76, line((1120, 806, 1), (1210, 800, 1), (1310, 808, 1))),
     ]
 
 
 def main() -> None:
-    names = "Sky", "Hills", "Woods", "Houses", "Trees", "Lower", "Path", "Walls", "Front"
+    names = "Sky", "Hills", "Woods", "Top", "Path", "Houses", "Lower", "Walls", "Front"
     commands = [
         {"inkfall": 2, "frame": [0, 0, *FRAME], "seed": SEED},
         *({"do": "texture", "name": name, "maker": "expression", "bundled": name} for name in GENERATORS),
+        BLADES,
         *({"do": "layer", "add": name} for name in names),
         *sky(), *hills(), *village(),
     ]  # fmt: skip
