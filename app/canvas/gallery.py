@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 import moderngl
@@ -11,6 +12,7 @@ from imgui_bundle import imgui
 from engine.numeric.address import Rect
 
 _PAPER = 244  # grey of the paper under pictures with holes
+_MANY, _MOST = "step ", 256  # what names begin with of which there is no end, and how many of those hang, the newest
 
 
 class Gallery:
@@ -20,6 +22,7 @@ class Gallery:
         self._ctx, self._shown = ctx, shown
         self._textures: dict[str, moderngl.Texture] = {}
         self._fresh: set[int] = set()
+        self._many: deque[str] = deque()  # names of those, the first that was hung first
 
     def hang(self, name: str, pixels: np.ndarray) -> None:
         """Hangs a picture, uint8 (h, w, 4) premultiplied, over paper."""
@@ -56,5 +59,17 @@ class Gallery:
                 old.release()
             old = self._textures[name] = self._ctx.texture((width, height), parts, alignment=1)
             self._shown[name] = imgui.ImTextureRef(old.glo)
+            self._take_down(name)
         self._fresh.add(old.glo)
         return old
+
+    def _take_down(self, name: str) -> None:
+        """Takes down what hangs for longest where a picture is one too many: it is sent again when it is wanted."""
+        if not name.startswith(_MANY):
+            return
+        self._many.append(name)
+        if len(self._many) > _MOST:
+            first = self._many.popleft()
+            if first not in self._many:  # it changed its size, and hangs again
+                self._textures.pop(first).release()
+                del self._shown[first]

@@ -211,3 +211,12 @@ def test_groups_do_not_overlap_and_keep_the_order(boxes):
 def test_windows_side_by_side_are_groups_of_their_own():
     sheets = [Sheet(((), b"", b"", SIZE), box) for box in ((0, 0, 10, 20), (10, 0, 30, 20), (0, 20, 30, 30))]
     assert [group.box for group in grouped_sheets(sheets)] == [sheet.box for sheet in sheets]
+
+
+def test_of_pictures_of_steps_the_newest_hang(context):
+    shown = {}
+    gallery = Gallery(context, shown)
+    for n in range(300):
+        for name in ("brush", f"step 0.{n}", "step 0.299"):
+            gallery.hang(name, np.zeros((2, 2, 4), np.uint8))
+    assert set(shown) == {"brush", "step 0.299", *(f"step 0.{n}" for n in range(44, 299))}
