@@ -18,10 +18,14 @@ SMALLEST_CACHE = 16 << 20  # bytes of evaluated tiles that are worth more than t
 _APART = 32 << 20  # bytes that the process grows by before it is looked after again
 _PASSING = 256 << 20  # bytes that come and go at once, as a save takes them, for which there is room: at most these
 _PASSING_PART = 4  # and of the budget such a part
+_LONG = 0.1  # seconds of the processor of what is looked at for how much came and went.  Where that was more than there
+# is room for, as much is left for the next, up to such a part of the budget again;
+_FORGOTTEN_PART = 64  # and such a part of it less after each
 _GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
 _GROWN_PART = 16  # or such a part of what it took: a look for what is free takes the longer the more there is
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
-_UNFELT = 0.02  # seconds of the processor that a command may take longer for it, which no hand feels
+_UNFELT = 0.02  # seconds of the processor that a command may take longer for it, which no hand feels,
+_UNFELT_PART = 20  # or such a part of what it took
 _SPARED_PARTS = 4  # of what it may take: where but one of them is left, pages are spared until two are
 _AGAIN = 2.0  # seconds after which it is, at the latest
 _REST = 50  # of the time that a look took, such a multiple of it
@@ -53,6 +57,7 @@ class Room(Owned):
         self._since = 0.0  # seconds of this thread's processor until it was asked for last
         self._evicted = 0  # bytes that the cache had evicted when pages were given back at rest
         self._settled = 0  # bytes resident then, or fewer since
+        self._passed = 0  # bytes that came and went with something of late, at most
         self._sparing = False  # whether pages of large arrays go back as soon as they are freed
         self._grown = False  # whether it is time for that again
         self.aside: Iterable[Callable[[], Iterable[Group]]] = ()  # what tell of other states that somebody keeps
@@ -60,7 +65,10 @@ class Room(Owned):
     def keep_within(self, root: Group) -> None:
         """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
         process takes more than the budget: by and by, so that nothing that is done takes much longer for it."""
-        most, held = _most(), memory.resident()
+        held = memory.resident()
+        if time.thread_time() - self._since > _LONG:
+            self._passed = max(memory.peak() - held, self._passed - self._passed // _FORGOTTEN_PART)
+        most = _most() - min(max(self._passed - _passing(), 0), memory.budget() // _PASSING_PART)
         self._settled = min(self._settled, held)
         self._grown = held - self._settled > self._worth(_GROWN)
         self._spare(held, most)
@@ -96,8 +104,9 @@ class Room(Owned):
         """Makes records smaller, then old steps, for as long as took what was done since it was asked for last, so that
         it keeps up with what is stored; never long, unless the process is crowded."""
         now = time.thread_time()
-        seconds = now - self._since if crowded else min(now - self._since, _UNFELT)
-        self._paging.step(_PAGED_AT_ONCE, seconds)
+        worked = now - self._since
+        seconds = worked if crowded else min(worked, max(_UNFELT, worked / _UNFELT_PART))
+        self._paging.step(max(_PAGED_AT_ONCE, int(_PAGED_AT_ONCE * seconds / _UNFELT)), seconds)
         while self.history.tight and time.thread_time() < now + seconds and self.history.pending:
             self.history.step()  # who never rests has none made smaller else but by the newest
 

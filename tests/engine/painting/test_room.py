@@ -20,12 +20,18 @@ class Process:
     """A process whose memory a test decides: what is given back is free at once."""
 
     def __init__(self, monkeypatch):
-        self.used = self.free = self.now = self.given = 0
+        self.used = self.free = self.now = self.given = self.passed = self.worked = 0
         monkeypatch.setattr(memory, "budget", lambda: 100 * MEGABYTE)
         monkeypatch.setattr(memory, "PROGRAM", rooms._APART + 100 * MEGABYTE // rooms._PASSING_PART)
         monkeypatch.setattr(memory, "resident", lambda: (self.used + self.free) * MEGABYTE)
+        monkeypatch.setattr(memory, "peak", lambda: (self.used + self.free + self.passed) * MEGABYTE)
         monkeypatch.setattr(memory, "give_back", self.give_back)
         monkeypatch.setattr(rooms.time, "monotonic", lambda: self.now)
+        monkeypatch.setattr(rooms.time, "thread_time", self.thread_time)
+
+    def thread_time(self):
+        self.worked += 1e-4
+        return self.worked
 
     def give_back(self):
         self.given += self.free > 0
@@ -128,3 +134,19 @@ def test_a_small_cache_gives_way_too(process):
     process.used = 500
     Room(cache, History()).keep_within(Painting().root)
     assert cache.held <= rooms.SMALLEST_CACHE
+
+
+def test_where_much_comes_and_goes_room_is_left_for_it_for_a_while(process):
+    room = Room(TileCache(MEGABYTE), History())
+    process.used, process.free, process.passed = 60, 35, 45
+    for worked, given in ((0.05, 0), (0.2, 1)):  # a short piece of work tells nothing
+        process.worked += worked
+        room.keep_within(Painting().root)
+        assert process.given == given
+    process.passed = 10
+    for n in range(80):
+        process.free, process.now, process.worked = 35, process.now + 10 * rooms._AGAIN, process.worked + 0.2
+        room.keep_within(Painting().root)
+        assert process.given == n + 2 or n > 20
+    assert process.given < 70
+    assert process.free
