@@ -19,14 +19,16 @@ from engine.canvas.reading import Read, covered, kept_planes, layer_planes
 from engine.canvas.selecting.mask_sheet import MaskSheet
 from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled
+from engine.keeping import memory
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
-from engine.painting.cascade import Cascade
+from engine.painting.cascade import PIXEL, Cascade
 from engine.painting.lighting import Lighting, needed, pictured
 
 _STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 64
 _SHEET_ROWS, _SHEET_COLUMNS = 256, 512  # of the pieces of sheets: those of all layers fit into a processor's caches
+_HELD_PART = 16  # of the budget of memory, that all of them may take
 _HELD, _HELD_OF_ALL = 1 << 19, 1 << 21  # pixels of a coarser level up to which it is held: of a layer, of all of them
 _ELSEWHERE = 48 << 20  # bytes of what placements show that are kept
 _COLUMNS = 1024  # of the pieces in which layers are evaluated: see `_Pieces`
@@ -115,7 +117,7 @@ def _joined(band: Rect, begun: Sequence[Future[tuple[Rect, np.ndarray]]]) -> np.
 
 def _held_of(count: int) -> int:
     """Returns the pixels up to which a coarser level is held, of each of so many layers."""
-    return min(_HELD, _HELD_OF_ALL // max(1, count))
+    return min(_HELD, min(_HELD_OF_ALL, memory.budget() // (_HELD_PART * PIXEL)) // max(1, count))
 
 
 class _Pieces:

@@ -13,15 +13,15 @@ from engine.checks.owned import Owned
 from engine.journal.heads import head_of_file, head_of_new
 from engine.journal.volume import Continued
 from engine.keeping.preferences import Preferences
-from engine.keeping.unfinished import unfinished
 from engine.numeric.arithmetic import NEWEST
 from engine.painting.recording import Header
-from engine.painting.value import Painting, first_painting, header_for
+from engine.painting.value import first_painting, header_for
 from engine.studio import faults, results
 from engine.studio import requests as q
 from engine.studio.easel import Easel
 from engine.studio.filing import documents
 from engine.studio.filing.document import Document
+from engine.studio.filing.exports import Exports
 from engine.studio.filing.filming import Filming
 from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole, Show, StopPlaying
 from engine.studio.filing.openings import Openings, Wanted
@@ -51,12 +51,13 @@ class Filing(Owned):
         self.saves = Saves(easel, self._writers, preferences)
         self.turned: Turned = lambda head, continued, count: None
         self.openings = Openings(easel, post, self.replace)
+        self._exports = Exports(easel, self._writers)
         self._filming = Filming(easel, self._writers, post, self.saves.making)
         self.handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open,
             q.Recover: self._recover,
-            q.Export: self._export,
+            q.Export: self._exports.export,
             **self.saves.handlers,
             **self._filming.handlers,
             **self._writers.handlers,
@@ -71,6 +72,7 @@ class Filing(Owned):
         """Waits for files that are being written; for one that is being read, nobody does; a film is given up."""
         self.openings.cancel()
         self._filming.close()
+        self._exports.close()
         self.saves.close()
 
     def replace(self, document: Document) -> None:
@@ -168,18 +170,6 @@ class Filing(Owned):
             self._easel.send(faults.told(error, "while a painting was recovered", "recover"))
         else:
             self.replace(document)
-
-    def _export(self, request: q.Export) -> None:
-        def write(grown: Painting) -> results.Result:
-            with unfinished(request.path):
-                documents.write_picture(request, grown)
-            return results.Note(f"Wrote {request.path.name}", about="export")
-
-        self._writers.start(write, self._easel.session.painting, self._exported)
-
-    def _exported(self, told: results.Result | None) -> None:
-        if told is not None:
-            self._easel.send(told)
 
 
 def _losses(document: Document) -> results.Note:

@@ -241,3 +241,30 @@ def test_a_save_of_a_painting_that_is_gone_asks_nothing(window, tmp_path, gate):
     (note,) = one.written()
     assert note.bad
     assert note.text == "lake.ora was not saved: another program changed it"
+
+
+def test_pictures_are_exported_one_at_a_time_and_of_each_file_the_newest(tmp_path, monkeypatch):
+    window, written, at_once = Window(), [], []
+    go_on = threading.Event()
+
+    def write(request, painting):
+        at_once.append(request)
+        assert len(at_once) == 1
+        assert go_on.wait(60)
+        written.append((request.path.name, sum(1 for _ in layers.layers(painting.root))))
+        at_once.pop()
+
+    monkeypatch.setattr(documents, "write_picture", write)
+    for name in ("a.png", "b.png", "a.png", "a.png", "b.png"):
+        window.do(q.Export(tmp_path / name))
+        window.add(f"{len(window.told)}")
+    aside = [root for told in window.studio.easel.session.room.aside for root in told()]
+    assert sorted(sum(1 for _ in layers.layers(root)) for root in aside)[-3:] == [0, 3, 4]
+    go_on.set()
+    told = window.written()
+    assert written == [("a.png", 0), ("a.png", 3), ("b.png", 4)]
+    assert [one.text for one in told] == ["Wrote a.png", "Wrote a.png", "Wrote b.png"]
+    for name in ("a.png", "b.png"):
+        window.do(q.Export(tmp_path / name))
+    window.studio.close()
+    assert [name for name, _ in written[3:]] == ["a.png", "b.png"]
