@@ -50,6 +50,8 @@ class Room(Owned):
 
     def __init__(self, cache: TileCache, history: History) -> None:
         self._cache, self.history = cache, history
+        self._share = cache.budget  # bytes that it may take where there is room
+        self._least = max(min(memory.cache_share(), cache.budget) // 4, SMALLEST_CACHE)  # and where there is none
         self._paging = Paging()
         self._left = 0  # bytes resident when it was looked after last
         self._looked = -_AGAIN  # when that was
@@ -69,6 +71,8 @@ class Room(Owned):
         if time.thread_time() - self._since > _LONG:
             self._passed = max(memory.peak() - held, self._passed - self._passed // _FORGOTTEN_PART)
         most = _most() - min(max(self._passed - _passing(), 0), memory.budget() // _PASSING_PART)
+        cache = self._cache  # which grows while a long command is carried out, and nobody looks after it
+        cache.budget = min(max(cache.held + most - held, self._least), self._share)
         self._settled = min(self._settled, held)
         self._grown = held - self._settled > self._worth(_GROWN)
         self._spare(held, most)
@@ -94,7 +98,7 @@ class Room(Owned):
         self.history.tight = over > 0
         if over > 0:
             forget_made(over)
-            cache.shrink(max(cache.held - over, min(memory.cache_share(), cache.budget) // 4, SMALLEST_CACHE))
+            cache.shrink(max(cache.held - over, self._least))
             memory.give_back()
             over = memory.resident() - most
         self._paging.want(root, cache.level, max(over, 0), [state for told in self.aside for state in told()])

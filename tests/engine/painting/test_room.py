@@ -131,9 +131,15 @@ def test_a_small_cache_gives_way_too(process):
     cache = TileCache(64 * MEGABYTE)
     for n in range(60):
         cache.adopt(Pyramid(), TileKey(0, n, 0), Planes(np.ones((4, 256, 256), np.float32)))
-    process.used = 500
-    Room(cache, History()).keep_within(Painting().root)
-    assert cache.held <= rooms.SMALLEST_CACHE
+    process.used, room = 500, Room(cache, History())
+    room.keep_within(Painting().root)
+    assert cache.held <= rooms.SMALLEST_CACHE == cache.budget  # nor does it grow again at once
+    process.used = 80
+    room.keep_within(Painting().root)
+    assert cache.budget == cache.held + 20 * MEGABYTE
+    process.used = 10
+    room.keep_within(Painting().root)
+    assert cache.budget == 64 * MEGABYTE
 
 
 def test_where_much_comes_and_goes_room_is_left_for_it_for_a_while(process):
