@@ -10,6 +10,7 @@ from typing import BinaryIO
 
 import numpy as np
 
+from engine.archive.held_levels import held_pixels
 from engine.canvas.layers import Group, pictured
 from engine.checks.picture_sides import PICTURE_SIDE
 from engine.files.atomic import replacing
@@ -117,7 +118,7 @@ def export(
 
     def rows() -> Iterator[np.ndarray]:
         done = 0
-        for strip in rows_of(root, picture.level, area, to_pixels, cancelled, lighting):
+        for strip in rows_of(root, picture.level, area, to_pixels, cancelled, lighting, held_pixels()):
             yield strip
             done += len(strip)
             if progress is not None:

@@ -22,6 +22,7 @@ import numpy as np
 
 from engine.archive import grounds, pictures, plot_files
 from engine.archive.grounds import GroundEntry
+from engine.archive.held_levels import held_pixels
 from engine.archive.implied import needed
 from engine.archive.jobs import Job, pack_jobs
 from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
@@ -244,7 +245,7 @@ class SavePlan:
                 if not self._is_ground(layer) and layer.id not in self._bases:
                     files[png_name(layer)] = SpooledPng(places[layer.id], len(self._shown))
             files[MERGED] = SpooledPng(self._frame, len(self._shown), small=True)
-            for known, merged in sheets(root, level, self._frame, places, self._cancelled):
+            for known, merged in sheets(root, level, self._frame, places, self._cancelled, held_pixels()):
                 for layer in layers.layers(root):
                     if layer.id in known and png_name(layer) in files:
                         files[png_name(layer)].rows(known[layer.id])

@@ -19,17 +19,15 @@ from engine.canvas.reading import Read, covered, kept_planes, layer_planes
 from engine.canvas.selecting.mask_sheet import MaskSheet
 from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled
-from engine.keeping import memory
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
-from engine.painting.cascade import PIXEL, Cascade
+from engine.painting.cascade import Cascade
 from engine.painting.lighting import Lighting, needed, pictured
 
 _STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 64
 _SHEET_ROWS, _SHEET_COLUMNS = 256, 512  # of the pieces of sheets: those of all layers fit into a processor's caches
-_HELD_PART = 16  # of the budget of memory, that all of them may take
-_HELD, _HELD_OF_ALL = 1 << 19, 1 << 21  # pixels of a coarser level up to which it is held: of a layer, of all of them
+_HELD, HELD_OF_ALL = 1 << 19, 1 << 21  # pixels of a coarser level up to which it is held: of a layer, of all of them
 _ELSEWHERE = 48 << 20  # bytes of what placements show that are kept
 _COLUMNS = 1024  # of the pieces in which layers are evaluated: see `_Pieces`
 _SHARING, _COARSER = 512, 3  # rows whose pieces are evaluated from one part of a level, so many levels coarser
@@ -81,10 +79,12 @@ def rows_of(
     convert: Callable[[np.ndarray], np.ndarray],
     cancelled: Stop = None,
     lighting: Lighting | None = None,
+    held: int = HELD_OF_ALL,
 ) -> Iterator[np.ndarray]:
     """As `strips`, but pixels as `convert` makes them of planes: (n, w, channels), a new array every time; lit, if
-    there is a light.  On all cores; each strip is evaluated while the one before is worked with."""
-    pieces = _Pieces(root, level, rect, cancelled, lighting)
+    there is a light.  On all cores; each strip is evaluated while the one before is worked with.  `held`: the pixels of
+    all layers' coarser levels up to which these are held."""
+    pieces = _Pieces(root, level, rect, cancelled, lighting, held=held)
 
     def made(piece: Rect) -> tuple[Rect, np.ndarray]:
         return piece, convert(pieces.composited(piece))
@@ -115,9 +115,9 @@ def _joined(band: Rect, begun: Sequence[Future[tuple[Rect, np.ndarray]]]) -> np.
     return out
 
 
-def _held_of(count: int) -> int:
+def _held_of(count: int, of_all: int) -> int:
     """Returns the pixels up to which a coarser level is held, of each of so many layers."""
-    return min(_HELD, min(_HELD_OF_ALL, memory.budget() // (_HELD_PART * PIXEL)) // max(1, count))
+    return min(_HELD, of_all // max(1, count))
 
 
 class _Pieces:
@@ -132,13 +132,14 @@ class _Pieces:
         cancelled: Stop,
         lighting: Lighting | None = None,
         elsewhere: Read | None = None,
+        held: int = HELD_OF_ALL,
     ) -> None:
         root = Planned.of(root) if isinstance(root, Group) else root
         count = sum(1 for _ in layers.layers(root.root))
         self._planned, self._level, self._cancelled = root, level, cancelled
         self._lighting, rect = lighting, needed(rect, lighting)
         self._columns = max(128, _COLUMNS * HELD // max(HELD, count))
-        self._evaluated = _Evaluated(level, rect, _held_of(count))
+        self._evaluated = _Evaluated(level, rect, _held_of(count, held))
         self._elsewhere = keeping() if elsewhere is None else elsewhere
 
     def of(self, band: Rect) -> list[Rect]:
@@ -156,15 +157,20 @@ class _Pieces:
 
 
 def sheets(
-    root: Group, level: int, frame: Rect, places: Mapping[int, Rect], cancelled: Stop = None
+    root: Group,
+    level: int,
+    frame: Rect,
+    places: Mapping[int, Rect],
+    cancelled: Stop = None,
+    held: int = HELD_OF_ALL,
 ) -> Iterator[tuple[dict[int, np.ndarray], np.ndarray]]:
     """Yields the frame from the top, in bands, each layer evaluated once: (pixels of each layer by its id, composited).
 
     `places`: where each layer is to be seen (`reach`); its pixels cover the part of the band there, and are left out
-    where that is empty.  All uint8 (n, w, 4) of straight alpha.
+    where that is empty.  All uint8 (n, w, 4) of straight alpha.  `held`: as in `rows_of`.
     """
     all_layers = list(layers.layers(root))
-    evaluated = _Evaluated(level, frame, _held_of(len(all_layers)))
+    evaluated = _Evaluated(level, frame, _held_of(len(all_layers), held))
     elsewhere, planned = keeping(), Planned.of(root)
     rows = max(16, min(_SHEET_ROWS, TOGETHER // (len(all_layers) + 1) // frame.width) & ~1)
     for y in range(frame.y0, frame.y1, rows):
