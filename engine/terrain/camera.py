@@ -156,7 +156,8 @@ def _levels(land: Land, camera: Camera, finest: int, cells: int, sharp: bool) ->
         if side + 8 * Fraction(camera.height) * by <= cells:
             break
         gap = next((gap for most, gap in _GAPS if len(levels) < most), _LAST_GAP) if sharp else _APART
-        levels.append(levels[-1] - gap)
+        coarser = levels[-1] - gap
+        levels.append(max(coarser, finest - DEEP) if finest > DEEP else coarser)  # heights are told from there
     return tuple(reversed(levels))
 
 

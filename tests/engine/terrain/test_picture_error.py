@@ -106,6 +106,14 @@ def test_a_sharp_picture_has_more_land_near_the_eye_and_not_too_much_in_all(seen
     assert sides[1][-1] > 2.0**24  # as far as without
 
 
+@pytest.mark.parametrize("finest", [33, 34, 38, 64])
+def test_a_sharp_picture_is_told_from_one_place_however_deep_it_is(seen, finest):
+    camera = Camera(finest, Fraction(128 << finest), Fraction(128 << finest), 20.0, 0.0, -24.0, 55.0)
+    made = windows_of(seen, camera, cover_of(seen, False), finest, cells=16, sharp=True)
+    assert min(made.levels) >= made.about.level
+    assert np.isfinite(made.heights).all()
+
+
 SMALL = 64, 40
 
 
