@@ -110,9 +110,14 @@ def cover_of(land: Land, wet: bool) -> Cover:
         frame, level = frame.zoomed(-1), level - 1
     heights = land.height(level, frame)
     low, high = (float(v) for v in np.percentile(heights, (0.5, 99.8)))
+    return Cover(draped_root(land), 0.0 if wet else low, high)
+
+
+def draped_root(land: Land) -> Group | None:
+    """Returns the picture that lies on a land; None where nothing does."""
     root = None
     if land.source not in (COMPOSITE, ALPHA):
         rest = layers.remove(land.painting.root, land.source)
         shown = layers.pictured(replace(rest, paper=None) if rest.paper else rest)
         root = folded_layers(settled_root(shown)) if any(True for _ in layers.layers(shown)) else None
-    return Cover(root, 0.0 if wet else low, high)
+    return root

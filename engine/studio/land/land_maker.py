@@ -16,7 +16,7 @@ from engine.studio.land.land_records import AskGround, AskLand, GroundFound, Lan
 from engine.studio.land.stroke_seen import StrokeSeen
 from engine.studio.requests import Handlers
 from engine.studio.sight import STEPS_KEPT
-from engine.terrain.drape import cover_of
+from engine.terrain.drape import cover_of, draped_root
 from engine.terrain.plane import DEEP, Land, heights_of, land
 from engine.terrain.seen.land_tiles import FINER, QUADS, TEXELS, TileKey
 from engine.terrain.seen.tile_light import towards_sun
@@ -96,7 +96,7 @@ class LandMaker(Owned):
             self._revision += 1
             self._changes.append((self._revision, where))
             seen = _of(self._maker.land, painting)
-            cover = replace(cover_of(seen, self._maker.wet), low=self._maker.cover.low, high=self._maker.cover.high)
+            cover = replace(self._maker.cover, root=draped_root(seen))
             self._maker = TileMaker(seen, cover, self._maker.wet)
         self._open = deque(sorted(self._wanted, key=self._is_shaded_only))
 
