@@ -21,11 +21,8 @@ from engine.texture.expression.library.bundled_texts import written_library
 from engine.texture.expression.written_ink import woven_line
 
 NAMES = list(written_library())
-SHIMMER_EXACT, SHIMMER, FROM_FAR = (
-    1.0,
-    3.0,
-    4.0,
-)  # of 255, rms: exactly filtered, other levels, those with many repeats a pixel
+LEVELS = range(-4, 11)  # of 4 pixels of a period to 65,536
+SHIMMER_EXACT, SHIMMER = 1.0, 3.0  # of 255, rms: what is exactly filtered, and all else
 DEFINED = {"do": "texture", "name": "wall", "maker": "expression"}
 
 
@@ -89,22 +86,21 @@ def test_from_near_four_samples_of_a_pixel_are_enough(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_none_shimmers(name):
-    """Each level, of 32 pixels of a period and of 512, is the next finer one, reduced."""
-    for level in (-1, 3):
-        _shimmers_little(name, level, SHIMMER)
+    """Each level is the next finer one, reduced: here one level of each, so that all levels are looked at."""
+    _shimmers_little(name, LEVELS[NAMES.index(name) * 4 % len(LEVELS)])
 
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", NAMES)
-def test_none_shimmers_from_far(name):
-    """As above, of 4 pixels of a period."""
-    _shimmers_little(name, -4, FROM_FAR)
+def test_none_shimmers_at_any_level(name):
+    for level in LEVELS:
+        _shimmers_little(name, level)
 
 
-def _shimmers_little(name, level, usual):
+def _shimmers_little(name, level):
     made = expression({"text": written_library()[name].text}, -4)
     period = 2.0 ** (level + 6)
     rect = Rect.at(int(5.37 * period), int(3.81 * period), 24, 24)
     woven = woven_line(made.text, made.values, (), 0, level, made.period)
-    most = usual if woven.rough or woven.jumps else SHIMMER_EXACT
+    most = SHIMMER if woven.rough or woven.jumps else SHIMMER_EXACT
     assert shimmer(made, level, rect).rms * 255.0 <= most, level

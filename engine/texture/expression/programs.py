@@ -251,7 +251,7 @@ def draw_program(made: Program, rect: Rect, period: Fraction) -> np.ndarray:
 
 
 def draw_pixels(made: Program, columns: np.ndarray, rows: np.ndarray, period: Fraction) -> np.ndarray:
-    """Returns a program's means over some pixels, not fitted: float32 (channels, pixels)."""
+    """Returns a program's means over some pixels: float32 (channels, pixels)."""
 
     def samples(side: int, which: np.ndarray | None = None) -> _Samples:
         along = (np.arange(side) + 0.5) / side
@@ -259,7 +259,7 @@ def draw_pixels(made: Program, columns: np.ndarray, rows: np.ndarray, period: Fr
         xs, ys = ((one[:, None] + along) / float(period) for one in some)
         return _meshed(xs, ys)
 
-    return _drawn(made, samples, columns.size)
+    return _fitted(made, _drawn(made, samples, columns.size))
 
 
 _Samples = tuple[np.ndarray, np.ndarray]

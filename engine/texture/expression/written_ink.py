@@ -23,14 +23,17 @@ from engine.texture.expression.programs import Program, draw_pixels, program
 from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
 from engine.texture.expression.sampling.far_fit import (
     CROWDED_BELOW,
-    FAR_SIDE,
+    FAR_SIDES,
     FITTED_BELOW,
+    PAIRED_FROM,
+    UNSURE_BELOW,
     far_cost,
     fit_to_near,
     near_level,
     shown_at_places,
+    shown_within,
 )
-from engine.texture.expression.sampling.sample_trial import measured_side, samples_of
+from engine.texture.expression.sampling.sample_trial import is_unsure, measured_side, samples_of
 from engine.texture.expression.weaving import Setting, Woven
 from engine.texture.expression.written import FELT, OWN_RIM, OWN_WAY, PRESSURE, STROKE_WAYS, USUAL_STAGES
 from engine.texture.record import Instance
@@ -218,18 +221,42 @@ def woven_program(
     found = _from_afar(_enough(woven, about, many), about, many)
     if woven.whole is not None or named or many >= FITTED_BELOW or not (woven.rough or woven.jumps):
         return found
-    far = shown_at_places(lambda columns, rows: draw_pixels(found, columns, rows, many), many)
-    return replace(found, fit=fit_to_near(far, _from_near(text, values, seed, period, line)))
+    paired = many >= PAIRED_FROM
+    far = shown_at_places(partial(_at_pixels, found, many), many, paired)
+    near = (
+        _from_nearer(text, values, seed, finer, period, line) if paired
+        else _from_near(text, values, seed, period, line)
+    )  # fmt: skip
+    return replace(found, fit=fit_to_near(far, near))
+
+
+def _at_pixels(made: Program, many: Fraction, columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    return draw_pixels(made, columns, rows, many)
 
 
 def _from_afar(found: Program, about: _About, many: Fraction) -> Program:
     """Returns the program with more samples where each pixel holds so much that some of its own have sixteen, if that
-    is not too dear."""
+    is not too dear; where it does not hold much, if sixteen are not sure."""
     most = found.side if found.finer is None else found.most
-    if many >= CROWDED_BELOW or most < JUMP_SIDE or found.takes:
+    if many >= UNSURE_BELOW or most < JUMP_SIDE or found.takes:
         return found
-    dear = _sampled(*about, JUMP_SIDE).cost * (FAR_SIDE / JUMP_SIDE) ** 2
-    return _sampled(*about, FAR_SIDE) if dear <= far_cost(many) else found
+    dear, side = _sampled(*about, JUMP_SIDE).cost, JUMP_SIDE
+    for more in FAR_SIDES:
+        sure = many >= CROWDED_BELOW if side == JUMP_SIDE else True
+        if dear * (more / JUMP_SIDE) ** 2 > far_cost(many) or (sure and not _unsure(about, many, (side, more))):
+            break
+        side = more
+    return found if side == JUMP_SIDE else _sampled(*about, side)
+
+
+def _unsure(about: _About, many: Fraction, sides: tuple[int, int]) -> bool:
+    return _told_unsure((about[0], one_way(about[1]), *about[2:]), many, sides)
+
+
+@lru_cache(_MEMO)
+def _told_unsure(about: _About, many: Fraction, sides: tuple[int, int]) -> bool:
+    some, more = (_sampled(*about, side) for side in sides)
+    return is_unsure(some, more, many)
 
 
 def _enough(woven: Woven, about: _About, many: Fraction) -> Program:
@@ -268,7 +295,18 @@ def _from_near(text: str, values: Values, seed: int, period: float, line: int) -
     """Returns what a line shows from near, at some places."""
     finer = near_level(period)
     made, many = woven_program(text, values, (), seed, finer, period, line), pixels(period, finer)
-    return shown_at_places(lambda columns, rows: draw_pixels(made, columns, rows, many), many)
+    return shown_at_places(partial(_at_pixels, made, many), many)
+
+
+def _from_nearer(text: str, values: Values, seed: int, finer: int, period: float, line: int) -> np.ndarray:
+    """Returns what the pixels of a line hold by the next finer level, at some places."""
+    made, many = _nearer(text, values, seed, finer + 1, period, line), pixels(period, finer)
+    return shown_within(partial(_at_pixels, made, 2 * many), many)
+
+
+@lru_cache(16)
+def _nearer(text: str, values: Values, seed: int, finer: int, period: float, line: int) -> Program:
+    return woven_program(text, values, (), seed, finer, period, line)
 
 
 @lru_cache(_MEMO)

@@ -24,6 +24,7 @@ _BY_ONE, _BY_FOUR = (0.5 / 255.0, 2.4 / 255.0, 0), (2.05 / 255.0, 24.0 / 255.0, 
 _ASIDE = 1.0 / 255.0  # all these pixels together: else each level is darker, or lighter, than the next one
 _FAR = 2.0 / 255.0  # one sample and four from one another, where more are taken
 _SHOWS = 2.0 / 255.0  # four from sixteen, rms over the pixels in which something jumps: less is not worth sixteen
+_UNSURE = 3.0 / 255.0  # sixteen from four times as many, where more are taken from afar
 _TURNS = (0.7548776662466927, 0.5698402909980532)  # no two pixels are near one another (Roberts 2018)
 
 
@@ -66,6 +67,13 @@ def measured_side(one: Drawn, made: Callable[[int], Drawn], period: Fraction) ->
         return 1
     many = _whole(_tried(made(JUMP_SIDE), period))
     return POINT_SIDE if _alike(some, many, _BY_FOUR) and not _bounded(some) else JUMP_SIDE
+
+
+def is_unsure(many: Drawn, most: Drawn, period: Fraction) -> bool:
+    """Tells whether many samples and most show so different pixels that most must be taken."""
+    a, b = (_whole(_tried(made, period)) for made in (many, most))
+    squares = np.square(a - b).max(axis=0)
+    return math.sqrt(int(squares.sum()) / _PIXELS) / _UNIT > _UNSURE
 
 
 def samples_of(made: Drawn, period: Fraction) -> tuple[float, bool]:
