@@ -65,6 +65,12 @@ def test_a_text_is_told_line_by_line(room):
     assert pictures["workshop texture"].shape == (96, 160, 4)
     assert pictures["workshop levels"].shape[1] == wr.LEVELS_SHOWN * wr.LEVEL_SIDE
     assert pictures["workshop lines"].shape == (wr.LINE_SIDE, wr.LINES_ACROSS * wr.LINE_SIDE, 4)
+    assert scene.pictured == ("brick", "worn", "wall", "")
+    told = [
+        one.pictured for one in room.ask(wr.WorkshopSet("a = x; a*y", size=SIZE)) if isinstance(one, wr.WorkshopScene)
+    ]
+    assert told[0] == scene.pictured, "as long as there are no others"
+    assert told[-1] == ("a", "")
 
 
 def test_a_text_names_what_the_painting_has(room):

@@ -42,17 +42,17 @@ class LineMarks:
             state.line = -1 if number == last or state.line == number else number
         w.named(f"line {number + 1}")
         painter, at, end = imgui.get_window_draw_list(), imgui.get_item_rect_min(), imgui.get_item_rect_max()
-        shown = desk.pictures.get("workshop lines")
+        shown = line_picture(desk, line.name)
         if shown is not None:
-            u, v = line_corners(number, last + 1)
+            picture, u, v = shown
             middle, half = (u.y + v.y) / 2, (v.y - u.y) / 3.2
             u, v = ImVec2(u.x, middle - half), ImVec2(v.x, middle + half)
-            painter.add_image_rounded(shown, at, end, u, v, -1 & 0xFFFFFFFF, 3)
+            painter.add_image_rounded(picture, at, end, u, v, -1 & 0xFFFFFFFF, 3)
         if alone or imgui.is_item_hovered():
             colour = theme.packed(theme.look.accent if alone else theme.look.text)
             painter.add_rect(at - ImVec2(1, 1), end + ImVec2(1, 1), colour, 3, thickness=1.5)
         if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
-            _tell(desk, number, line)
+            _tell(desk, line)
 
     def note(self, row: int) -> str:
         """Returns what a row's line is at the pixel under the pointer; "" while that is over nothing."""
@@ -85,10 +85,18 @@ def _told(values: tuple[float, ...]) -> str:
     return "#" + "".join(f"{value:02x}" for value in shown) + (f" {alpha:.0%}" if alpha < 0.999 else "")
 
 
-def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
+def line_picture(desk: Desk, name: str) -> tuple[imgui.ImTextureRef, ImVec2, ImVec2] | None:
+    """Returns the picture in which a line's lies, and where; None as long as there is none of it."""
+    shown, pictured = desk.pictures.get("workshop lines"), desk.workshop.scene.pictured
+    if shown is None or name not in pictured:
+        return None
+    return (shown, *line_corners(pictured.index(name), len(pictured)))
+
+
+def _tell(desk: Desk, line: WorkshopLine) -> None:
     """Draws a line's picture larger, and what is known of it."""
     side, padding = _LARGE * desk.scale, imgui.get_style().window_padding
-    shown = desk.pictures.get("workshop lines")
+    shown = line_picture(desk, line.name)
     samples = samples_told(line.samples)
     text = f"{line.cost:,.0f} ns a pixel, {samples}"
     about = f"{line.least:.2f} … {line.most:.2f}"
@@ -98,7 +106,8 @@ def _tell(desk: Desk, number: int, line: WorkshopLine) -> None:
     imgui.set_next_window_size(ImVec2(wide, high) + padding * 2)
     if imgui.begin_tooltip():
         if shown is not None:
-            imgui.image(shown, ImVec2(side, side), *line_corners(number, len(desk.workshop.scene.lines)))
+            picture, u, v = shown
+            imgui.image(picture, ImVec2(side, side), u, v)
         said.text_unformatted(line.name or "the texture")
         said.text_disabled(about)
         said.text_disabled(text)

@@ -14,7 +14,7 @@ from app.desk.workshop.text_nodes import LineNode, NodeRow, Slot, TextNodes, tex
 from app.language import said
 from app.panels.controls.colour_popup import colour_popup
 from app.panels.workshop import text_colours
-from app.panels.workshop.line_marks import line_corners
+from app.panels.workshop.line_marks import line_picture
 from app.panels.workshop.node_canvas import OUT, NodeCanvas
 from app.panels.workshop.node_layout import NUMBER_WIDE, broken_rows, first_places, legible, node_width, slots_of
 from app.panels.workshop.node_menus import TIDY, NodeMenus
@@ -125,19 +125,19 @@ class NodeView:
 
     def _picture(self, desk: Desk, found: TextNodes, number: int) -> None:
         """Draws how a line looks; a click looks at it alone."""
-        state, lines = desk.workshop, desk.workshop.scene.lines
+        state = desk.workshop
         size, last = _PICTURE * imgui.get_font_size(), len(found.nodes) - 1
         alone = number == (state.line if 0 <= state.line <= last else last)
         if imgui.invisible_button("##picture", size):
             state.line = -1 if number == last or state.line == number else number
         self._canvas.note(f"node {number + 1}", _SOLO)
         painter, at, end = imgui.get_window_draw_list(), imgui.get_item_rect_min(), imgui.get_item_rect_max()
-        shown = desk.pictures.get("workshop lines")
-        if shown is not None and [line.name for line in lines] == [node.name for node in found.nodes]:
-            u, v = line_corners(number, len(lines))
+        shown = line_picture(desk, found.nodes[number].name)
+        if shown is not None:
+            picture, u, v = shown
             middle, half = (u.y + v.y) / 2, (v.y - u.y) * size.y / size.x / 2
             u, v = ImVec2(u.x, middle - half), ImVec2(v.x, middle + half)
-            painter.add_image_rounded(shown, at, end, u, v, -1 & 0xFFFFFFFF, 3)
+            painter.add_image_rounded(picture, at, end, u, v, -1 & 0xFFFFFFFF, 3)
         if alone:
             painter.add_rect(at - ImVec2(1, 1), end + ImVec2(1, 1), theme.packed(theme.look.accent), 3, thickness=1.5)
 

@@ -184,7 +184,7 @@ class Workshop(Owned):
                     told[n] = replace(told[n], least=float(values.min()), most=float(values.max()))
                 yield
         self._send("lines", atlas)
-        self._tell(lines=tuple(told))
+        self._tell(lines=tuple(told), pictured=tuple(line.name for line in told))
 
     def _levels(self, known: _Known) -> Iterator[None]:
         """Shows the texture at five levels, about the middle of what is looked at."""
@@ -225,8 +225,8 @@ def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
     if before is not None and _alike(before, asked):
         lines = before.scene.lines
     sliders = tuple((name, s.usual, s.least, s.most, s.step) for name, s in written.sliders.items())
-    drawn = before.scene.drawn if before is not None else 0
-    scene = wr.WorkshopScene(asked.text, None, lines, sliders, drawn=drawn, felt=written.felt)
+    drawn, pictured = (before.scene.drawn, before.scene.pictured) if before is not None else (0, ())
+    scene = wr.WorkshopScene(asked.text, None, lines, sliders, drawn=drawn, felt=written.felt, pictured=pictured)
     if before is not None and before.asked.text == asked.text and len(before.scene.lines) == len(lines):
         scene = replace(scene, counts=before.scene.counts, least=before.scene.least, most=before.scene.most)
     return _Known(asked, made, scene)

@@ -80,7 +80,7 @@ class WorkshopScene:
     `mistake`: then the rest is of the last text that was right; `counts`: how often values are seen, from `least` to
     `most` of what is looked at, red, green, blue, or one for all; `shimmer`: how far the level is from the next finer
     one reduced, rms of 0..255, -1 while that is not known; `drawn`: how many pictures were; `busy`: kernels are made;
-    `felt`: what of FELT the text looks at.
+    `felt`: what of FELT the text looks at; `pictured`: the names of the lines of which there are small pictures.
     """
 
     text: str
@@ -94,6 +94,7 @@ class WorkshopScene:
     drawn: int = 0
     busy: bool = False
     felt: tuple[str, ...] = ()
+    pictured: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
