@@ -10,9 +10,11 @@ import gc
 import json
 import os
 import sys
+import threading
 from collections import Counter, deque
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -42,7 +44,7 @@ def allocated() -> dict[str, int]:
 
 def tell_holders(path: Path) -> None:
     """Has a copy of the process write down who holds what, as JSON."""
-    frames = [frame for frame in sys._current_frames().values() if frame is not sys._getframe()]
+    frames = _frames()
     if os.fork():
         return
     try:
@@ -69,9 +71,22 @@ def _of_modules() -> Iterator[tuple[str, Any]]:
                 yield f"{name}.{word}" if name.startswith(_OURS) else name.partition(".")[0], held
 
 
-def _of_frames(frames: list[Any]) -> Iterator[tuple[str, Any]]:
-    for frame in frames:
-        yield f"thread {frame.f_code.co_name}", frame
+def _frames() -> list[tuple[str, FrameType]]:
+    """Returns all that runs now, with the names of threads and functions."""
+    names = {thread.ident: thread.name for thread in threading.enumerate()}
+    found = []
+    for ident, inner in sys._current_frames().items():
+        frame: FrameType | None = inner
+        while frame is not None:
+            found.append((f"{names.get(ident)}: {frame.f_code.co_name}", frame))
+            frame = frame.f_back
+    return found
+
+
+def _of_frames(frames: list[tuple[str, FrameType]]) -> Iterator[tuple[str, Any]]:
+    for name, frame in frames:
+        for word, held in frame.f_locals.items():
+            yield f"{name} {word}", held
 
 
 def _of_nobody() -> Iterator[tuple[str, Any]]:

@@ -1,8 +1,10 @@
 """What an hour of random painting comes to."""
 
+from threading import Event, Thread
+
 import numpy as np
 
-from bench.holders import holders
+from bench.holders import _frames, _of_frames, holders
 from bench.hour import BOUND, percentiles, verdict
 
 
@@ -33,3 +35,24 @@ def test_who_holds_arrays_is_told_with_the_way_to_them():
         ["second > bytes", 1.0, 1],
         ["second > ndarray > ndarray", 2.0, 1],
     ]
+
+
+def test_who_holds_arrays_is_told_of_functions_that_run_in_any_thread():
+    held, ended = Event(), Event()
+
+    def outer():
+        kept = np.zeros(1 << 20, np.uint8)
+        inner()
+        return kept
+
+    def inner():
+        held.set()
+        ended.wait()
+
+    thread = Thread(target=outer, name="somebody")
+    thread.start()
+    held.wait()
+    told = holders([_of_frames(_frames())])
+    ended.set()
+    thread.join()
+    assert ["somebody: outer kept", 1.0, 1] in told["top"]
