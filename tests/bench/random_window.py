@@ -10,10 +10,11 @@ import json
 import logging
 import os
 import sys
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
-from threading import Event, Thread
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -51,7 +52,7 @@ def main(seconds: float, seed: int, folder: Path) -> None:
         _say(ready=True, budget=memory.budget() >> 20, renderer=window.ctx.info["GL_RENDERER"])
         _paint(window, hand, seconds, sessions)
     finally:
-        _say(closing=True)
+        _say(closing=True, files=sum(thread.name == "inkfall file" for thread in threading.enumerate()))
         window.hide()
         begun = time.monotonic()
         ended = window.engine.worker.close(60.0)
@@ -78,7 +79,7 @@ def _paint(window: Window, hand: RandomHand, seconds: float, sessions: list[Call
     """Frame after frame until the time is over; a thread beside wakes the window when the hand does the next thing."""
     works, over, now = hand.work(), Event(), time.monotonic()
     dues = [now]
-    Thread(target=_wake, args=(dues, over), daemon=True).start()
+    threading.Thread(target=_wake, args=(dues, over), daemon=True).start()
     end, telling, notes, told = now + seconds, now, -1, 0
     try:
         while (now := time.monotonic()) < end and not window.closed():
