@@ -87,7 +87,7 @@ def _freed(root: Group, level: int | None, aside: Sequence[Group]) -> Iterator[i
             if isinstance(stored, PagedLevel):
                 yield from (put_page_away(at, page, _old_until(pyramid)) for at, page in stored.pages.items())
     for pyramid in held:
-        yield from (block.put_away() for block in blocks_of(pyramid))
+        yield from (0 if block is None else block.put_away() for block in blocks_of(pyramid))
     for late in (False, True):
         for pyramid in held:
             old = _old_until(pyramid)

@@ -56,18 +56,18 @@ class FiledPage:
             yield place_in(self.where.at, bit), Record(Rect(x0, y0, x1, y1), held, self.inks[told >> 1], self.depth)
 
 
-def blocks_of(pyramid: Pyramid) -> Iterator[Block]:
-    """Yields the blocks of a file in which records of a pyramid lie, as often as there are some in one."""
+def blocks_of(pyramid: Pyramid) -> Iterator[Block | None]:
+    """Yields the blocks of a file in which records of a pyramid lie, as often as there are some in one; None for each
+    record, and each page, that lies in none: so whoever looks for them can stop at any time."""
     for stored in pyramid.levels.values():
         if isinstance(stored, PagedLevel):
-            away = (page.held[0] for page in stored.pages.values())
-            yield from (block for page in away if isinstance(page, FiledPage) for block in page.blocks)
+            for page in stored.pages.values():
+                away = page.held[0]
+                yield from away.blocks if isinstance(away, FiledPage) else (None,)
         for record in stored.here() if isinstance(stored, PagedLevel) else stored.values():
-            if not record.there:
-                continue
-            filed = record.held.filed if isinstance(record.held, Lessened) else record.held
-            if isinstance(filed, Filed):
-                yield filed.block
+            held = record.held if record.there else None
+            filed = held.filed if isinstance(held, Lessened) else held
+            yield filed.block if isinstance(filed, Filed) else None
 
 
 class _Gathering:
