@@ -32,6 +32,7 @@ class Callbacks:
         self._router, self._layout = router, router.layout
         self._event, self._before, self._drop = event, before, drop
         self.exposed = True  # the window system has lost what the window showed, or never had it
+        self.taken = 0  # keys that were pressed or let go and given to the router
         self._keys: list[tuple[int, int, int, int] | None] = []  # None: the focus was lost
         glfw.set_key_callback(window, self._key)
         glfw.set_char_callback(window, self._typed)
@@ -50,6 +51,7 @@ class Callbacks:
             if key is None:
                 self._router.lost_focus()
             else:
+                self.taken += key[2] != glfw.REPEAT
                 self._router.key(*key)
 
     def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:

@@ -24,7 +24,8 @@ assert imgui_bundle
 
 
 class Drawing:
-    """All calls from the thread that owns the window's context.  `drawn`: whether the last frame was drawn."""
+    """All calls from the thread that owns the window's context.  `drawn`: whether the last frame was drawn; `changed`:
+    whether anything but the rim of what is selected was another in it, which never rests."""
 
     def __init__(self, window: Any, screen: Screen, overlay: Overlay, land: LandScreen) -> None:
         self._window, self._screen, self._overlay, self._land = window, screen, overlay, land
@@ -36,7 +37,7 @@ class Drawing:
         self._colours = ScreenColours(screen.ctx)
         self._table: ScreenTable | None = None  # by which the window is shown
         self._carried: SheetPlan | None = None
-        self.drawn = False
+        self.drawn = self.changed = False
 
     def begin(self, desk: Desk, now: float) -> None:
         """Has the card begin with the land, which it fills beside what the panels are laid out in."""
@@ -56,7 +57,8 @@ class Drawing:
         rim = None if desk.selecting.masking else desk.selecting.ants
         by = rim_similarity(desk)
         ants = self._line.plan(rim, now, by)
-        self.drawn = told or plan != self._plan or (sheets, ants) != (self._carried, self._ants) or exposed
+        self.changed = told or plan != self._plan or sheets != self._carried or exposed
+        self.drawn = self.changed or ants != self._ants
         if self.drawn:
             self._plan, self._carried, self._ants = plan, sheets, ants
             self._overlay.redraw(data)
@@ -86,7 +88,7 @@ class Drawing:
         if told:
             self._overlay.redraw(data)
         changed = self._land.draw(desk, now)
-        self.drawn = changed or told or exposed or not self._flown
+        self.drawn = self.changed = changed or told or exposed or not self._flown
         self._flown = True
         if self.drawn:
             self._land.show(desk)

@@ -85,9 +85,9 @@ class Pace:
         self._took, self._drawn, self._growing = now - self._last, drawn, growing
         self._by_turns = self._shared and growing and (moving or now - self._moved < AT_HAND)
 
-    def wait(self, moving: bool, painting: bool = False, typing: bool = False) -> None:
-        """Sleeps until an event, at most one frame while something moves or is about to; while the pen paints, until
-        the engine has more of the paint."""
+    def wait(self, moving: bool, painting: bool = False, idle: float = IDLE) -> None:
+        """Sleeps until an event, at most one frame while something moves or is about to, and `idle` seconds otherwise;
+        while the pen paints, until the engine has more of the paint."""
         now = time.monotonic()
         if moving or self._by_turns or now < self._busy_until:
             calm = not (moving or painting or self._drawn or self._by_turns) and now >= self._calm_from
@@ -95,7 +95,7 @@ class Pace:
             wakes = calm or (painting and not self._by_turns)
             self._doze(until - now) if wakes and until > now else self.rest(until - now)
         else:
-            self._doze(BLINK if typing else IDLE)
+            self._doze(idle)
             self._last = min(self._last + IDLE, time.monotonic() - PACE)
 
     def _doze(self, seconds: float) -> None:

@@ -14,8 +14,9 @@ TRACED = bool(os.environ.get("INKFALL_TRACE"))
 
 _placed: dict[tuple[str, str], Box] = {}  # in the frame that is drawn now
 _told: dict[tuple[str, str], Box] = {}  # at the end of the frame before
+moved = False  # whether those of the last frame lay elsewhere than those of the frame before
 _rest = ""  # what was told of it last
-_typing: str | None = None  # likewise
+_typing = ""  # likewise
 
 
 def trace(what: str) -> None:
@@ -39,9 +40,10 @@ def note_place(window: str, name: str, box: Box) -> None:
 
 def tell_places() -> None:
     """Ends a frame: tells each box that came or moved since the frame before, and each that went."""
-    global _placed, _told
+    global _placed, _told, moved
     if not TRACED:
         return
+    moved = _placed != _told
     for key, box in _placed.items():
         if _told.get(key) != box:
             sys.stderr.write(f"box {json.dumps([*key, *box])}\n")
@@ -65,26 +67,27 @@ def trace_points(count: int, began: float) -> None:
         print("points", count, began, time.monotonic(), file=sys.stderr, flush=True)
 
 
-def trace_rest(rests: bool, at: tuple[float, float]) -> None:
-    """Tells whether all that was asked for is done and on the screen, and where the pointer was then, pixels of the
-    window; when that is another than before."""
+def trace_rest(rests: bool, kept: bool, at: tuple[float, float], taken: tuple[int, int]) -> None:
+    """Tells whether all that was asked for is done and on the screen, and whether it is `kept` on disk, too, where the
+    pointer was then, pixels of the window, and how many keys and how many presses were `taken` until then; when that is
+    another than before."""
     global _rest
-    if not TRACED:
-        return
-    told = f"at {'rest' if rests else 'work'} {at[0]:g},{at[1]:g}"
-    if told != _rest:
+    how = f"{'rest' if rests else 'work'} {'kept' if kept else 'held'}"
+    told = f"at {how} {at[0]:g},{at[1]:g} {taken[0]} {taken[1]}"
+    if TRACED and told != _rest:
         _rest = told
         sys.stderr.write(f"{told}\n")
         sys.stderr.flush()
 
 
-def trace_typing(text: str | None) -> None:
-    """Tells what stands in the text field that takes what is typed, None where none does, when that is another than
-    before."""
+def trace_typing(on: bool, text: str | None) -> None:
+    """Tells whether a field takes what is typed, and what stands in it, None where that is not known, when that is
+    another than before."""
     global _typing
-    if TRACED and text != _typing:
-        _typing = text
-        sys.stderr.write("typing off\n" if text is None else f"typing on {json.dumps(text)}\n")
+    told = f"typing on {json.dumps(text)}" if on else "typing off"
+    if TRACED and told != _typing:
+        _typing = told
+        sys.stderr.write(f"{told}\n")
         sys.stderr.flush()
 
 

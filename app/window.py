@@ -51,15 +51,16 @@ from app.land.land_screen import LandScreen
 from app.land.land_wants import LandWants
 from app.language.wide_fonts import load_language_names
 from app.news import News
-from app.pace import Pace
+from app.pace import BLINK, IDLE, Pace
 from app.panels.controls.folds import keep_folds_in
 from app.panels.guides.assistant_marks import draw_assistants
 from app.panels.layout import Layout
 from app.panels.moving import box_marks, frame_marks
 from app.panels.strip import STRIPS
+from app.resting import LOOK, Resting
 from app.router import Router
 from app.solid_view import SolidView
-from app.trace import TRACED, trace_rest, trace_typing
+from app.trace import TRACED, trace_typing
 from app.wanted_tiles import Tiles
 from engine.keeping.preferences import Preferences, preferences_file, read_preferences
 from engine.studio import results
@@ -91,11 +92,14 @@ def _flush() -> Callable[[], None]:
 
 
 def _typed() -> str | None:
-    """Returns what stands in the text field that has the keyboard, None without one."""
-    if not imgui.get_io().want_text_input:
-        return None
+    """Returns what stands in the text field that has the keyboard, None where imgui has none."""
     field = imgui.internal.get_input_text_state(imgui.internal.get_active_id())
-    return "" if field is None else field.get_text()
+    return None if field is None else field.get_text()
+
+
+def _keys_wait() -> bool:
+    """Tells whether keys are left for the next frame: imgui takes one a frame."""
+    return len(imgui.get_current_context().input_events_queue) > 0
 
 
 def _look(screen: float, preferences: Preferences) -> tuple[float, float, str]:
@@ -158,7 +162,7 @@ class Window:
         )
         self.layout = Layout(self._guard)
         self.router = Router(self.desk, self.layout)
-        self.pointers = Pointers(handle)
+        self.pointers, self._resting = Pointers(handle), Resting()
         address = ctypes.cast(handle, ctypes.c_void_p).value or 0
         self._callbacks = Callbacks(handle, self.router, self.pace.event, self._catch_up, self._dropped)
         backends.glfw_init_for_opengl(address, False)
@@ -217,6 +221,7 @@ class Window:
         shelf, previews = Shelf(glfw.post_empty_event), Previews(glfw.post_empty_event)
         self.desk.thumbnails = shelf.ask
         self._files = files = Files(glfw.post_empty_event)
+        self._beside: tuple[Shelf | Previews | Files, ...] = (shelf, previews, files)
         self.desk.work = files.post
         self.desk.previews = previews.ask
         self.engine = EngineThread(self.desk, start, self.router.lift, self._taken)
@@ -238,10 +243,9 @@ class Window:
         seconds = self.pace.begin(now)
         _resize(self.desk, self.ctx, *glfw.get_framebuffer_size(self.handle))
         self._catch_up()
-        if self.news.take(now):
+        if came := self.news.take(now):
             self.pace.news(now)
-        told = desk.trial.heard(*self.pointers.heard()) if self._files is not None else ""
-        if told:
+        if self._files is not None and (told := desk.trial.heard(*self.pointers.heard())):
             desk.say(told)
         moving = desk.glide.moving
         with spare("on the view's way"):
@@ -270,8 +274,9 @@ class Window:
             exposed, self._callbacks.exposed = self._callbacks.exposed, False
             moving = self._drawing.draw(desk, now, self.gallery.fresh(), exposed) or moving
         self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None)
-        waits = len(imgui.get_current_context().input_events_queue) > 0  # it takes one key a frame
-        return self.desk.keys.stirred() or moving or waits
+        moves = self.desk.keys.stirred() or moving or _keys_wait()
+        self._resting.stirs = came or moves or self._drawing.changed
+        return moves
 
     def _catch_up(self, scancode: int | None = None) -> None:
         """Sees to keys that GLFW has told, and to what the pointer did after them: before the key that it tells of now,
@@ -283,6 +288,7 @@ class Window:
             self._callbacks.deliver()
         for event in found:
             self.pace.event()
+            self._resting.presses += event.kind not in ("move", "lost")
             with self._guard.spare("on what the pointer did"):
                 self.router.pointer(event)
 
@@ -326,12 +332,15 @@ class Window:
 
     def wait(self, moving: bool) -> None:
         """Sleeps until the next frame; `moving`: what the last one gave."""
-        trace_rest(not moving and self.engine.worker.settled, (self.desk.pointer.x, self.desk.pointer.y))
+        idle = BLINK if imgui.get_io().want_text_input or self.desk.selecting.selected else IDLE
         if TRACED:
-            trace_typing(_typed())
+            trace_typing(imgui.get_io().want_text_input, _typed())
+            self._resting.keys = self._callbacks.taken
+            done = self.engine.worker.settled and not any(one.busy for one in self._beside)
+            self._resting.look((self.desk.pointer.x, self.desk.pointer.y), done, self.engine.kept)
+            idle = idle if self._resting.rests and self._resting.kept else LOOK
         with self._guard.spare("on an event of the window system"):  # what its callbacks raised
-            blinks = imgui.get_io().want_text_input or self.desk.selecting.selected
-            self.pace.wait(moving, self.desk.painting, blinks)
+            self.pace.wait(moving or (TRACED and self._resting.soon), self.desk.painting, idle)
 
     def closed(self) -> bool:
         """Tells whether the window is to go; asks about unsaved changes first."""

@@ -45,6 +45,7 @@ ORDER = (
         "app.wanted_tiles",
         "app.news",
         "app.pace",
+        "app.resting",
         "app.drawing",
     ),
     ("app.callbacks", "app.decoration"),
@@ -133,7 +134,7 @@ def loaded_after(program: str) -> set[str]:
     probe = f"{program}\nimport json, sys; print('\\n' + json.dumps(sorted(sys.modules)))"
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     environment.pop("DISPLAY", None)
-    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, env=environment, timeout=60)
+    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, env=environment, timeout=90)
     assert done.returncode == 0, done.stderr
     return set(json.loads(done.stdout.splitlines()[-1]))
 

@@ -59,12 +59,14 @@ class Files:
         self._wake = wake
         self._posted: deque[FileWork | None] = deque()
         self._done: deque[Done] = deque()
+        self._open = 0  # what is posted and not taken
         self._signal = threading.Semaphore(0)
         self._thread = threading.Thread(target=self._run, name="inkfall files", daemon=True)
         self._thread.start()
 
     def post(self, work: FileWork) -> None:
         """Leaves some work; returns at once."""
+        self._open += 1
         self._posted.append(work)
         self._signal.release()
 
@@ -73,7 +75,13 @@ class Files:
         found = []
         while self._done:
             found.append(self._done.popleft())
+        self._open -= len(found)
         return found
+
+    @property
+    def busy(self) -> bool:
+        """Tells whether work is to be done, or to be taken."""
+        return self._open > 0
 
     def close(self) -> None:
         """Ends the thread when all that was posted is carried out; one that hangs, on a folder of a network that is

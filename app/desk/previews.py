@@ -60,6 +60,11 @@ class Previews:
         """Returns what is ready."""
         return [self._ready.popleft() for _ in range(len(self._ready))]
 
+    @property
+    def busy(self) -> bool:
+        """Tells whether pictures are made, or to be taken."""
+        return bool(self._ready) or (self._thread is not None and self._thread.is_alive())
+
     def _work(self) -> None:
         while True:
             try:

@@ -59,6 +59,11 @@ class Bench(Protocol):
         """Tells whether requests that it took over are still to be carried out."""
         ...
 
+    @property
+    def unseen(self) -> bool:
+        """Tells whether pictures wait for what nobody can do now."""
+        ...
+
     def play(self) -> None:
         """Plays the next piece."""
         ...
@@ -99,7 +104,7 @@ def _studio(send: Callable[[Result], None], post: Callable[[Request], None], pos
 class Worker:
     """The thread.  `wake` is called from it whenever results lie ready; it must be safe to call from any thread.
     `posts`: takes what is posted to the journal; `before`: the worker that has stopped and this one takes the place of,
-    whose journal is closed first."""
+    whose journal is closed first; `journal`: what keeps what is painted, None where nothing does."""
 
     def __init__(
         self,
@@ -110,6 +115,7 @@ class Worker:
     ) -> None:
         self._before, self._stopped = before, False
         self._wake, self._make, self._posts = wake, make if posts is None else partial(_studio, posts=posts), posts
+        self.journal = None if posts is None else posts.journal
         self._stays = True  # whether the painting is to be recovered
         if posts is not None:
             posts.hear(self._send, self.post)
@@ -163,7 +169,7 @@ class Worker:
     @property
     def entry(self) -> Path | None:
         """Returns the folder that keeps what is painted; None if there is none."""
-        return None if self._posts is None else self._posts.journal.entry.folder
+        return None if self.journal is None else self.journal.entry.folder
 
     def results(self, seen: bool = False) -> list[Result]:
         """Returns what came since the last call, in order; `seen`: only what is to be seen of the painting, as far as
@@ -207,7 +213,7 @@ class Worker:
         with self._signal:
             while True:
                 self._doing, self._waiting = bool(self._posted), bench.waits
-                self._open = self._look is not None or bench.pending > 0
+                self._open = self._look is not None or bench.pending > 0 or bench.unseen
                 if self._posted:
                     request = self._posted.popleft()
                     return lambda: bench.do(request)

@@ -15,7 +15,7 @@ def display():
     process, name = started_screen()
     yield name
     process.terminate()
-    process.wait(10)
+    process.wait(90)
 
 
 @pytest.fixture(scope="session")
@@ -43,7 +43,7 @@ def program(display, tmp_path, fork_server):
 def with_stroke(program):
     """The window with a stroke, one pixel of level 0 on one of the screen."""
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.keys("1")
     empty = app.canvas()
     app.stroke(*((440 + 8 * i, 320 + 5 * i) for i in range(16)))

@@ -8,7 +8,7 @@ from ctypes import POINTER, Structure, c_char_p, c_int, c_long, c_ulong, c_void_
 from pathlib import Path
 
 CLIENT_MESSAGE, SELECTION_REQUEST, SELECTION_NOTIFY = 33, 30, 31
-PATIENCE = 30.0  # seconds
+PATIENCE = 90.0  # seconds
 _HEAD = [("type", c_int), ("serial", c_ulong), ("sent", c_int), ("display", c_void_p)]
 
 
@@ -114,5 +114,5 @@ def window_of(app):
     """The number of a program's window."""
     words = ["xdotool", "search", "--onlyvisible", "--pid", str(app.process.pid)]
     environment = {**os.environ, "DISPLAY": app.display}
-    found = subprocess.run(words, capture_output=True, text=True, check=True, env=environment, timeout=30)
+    found = subprocess.run(words, capture_output=True, text=True, check=True, env=environment, timeout=PATIENCE)
     return int(found.stdout.split()[-1])

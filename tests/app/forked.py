@@ -92,7 +92,7 @@ class Server:
     def close(self) -> None:
         """Ends the server; what it has started goes on."""
         if self._process is not None:
-            self._process.communicate(timeout=30)
+            self._process.communicate(timeout=90)
 
     def _begun(self) -> subprocess.Popen[str]:
         environment = {**self._environment, "INKFALL_TRACE": "1", "PYTHONPATH": str(ROOT)}

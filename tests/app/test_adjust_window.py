@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 @pytest.mark.nightly
 def test_an_adjustment_is_seen_before_it_is_done_and_taken_back_at_once(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     empty = app.canvas()
     app.stroke(*((500 + 8 * i, 500) for i in range(50)))
     app.box("Layer 1")  # the stroke is done, and there is something to adjust

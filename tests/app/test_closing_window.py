@@ -12,7 +12,7 @@ from app.desk.exporting.export_state import FINER
 from app.loop import _told
 from engine.studio import results
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 LEVEL_4 = (4 - FINER[0] + 0.5) / (FINER[1] - FINER[0] + 1)  # its part of the slider's width
 SIZE = (16384, 12288)

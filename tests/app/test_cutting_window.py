@@ -10,7 +10,7 @@ from PIL import Image
 
 from bench.composites import composites
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 
 def until(good, seconds=90.0):

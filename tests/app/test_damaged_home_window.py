@@ -15,7 +15,7 @@ from driven import REST
 from engine.archive.opening import open_painting
 from engine.painting import commands as c
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 COUNT = int(os.environ.get("INKFALL_DAMAGES", "100"))
 SEED = int(os.environ.get("INKFALL_DAMAGES_SEED", "1"))
 FRESH = 20  # of so many, one starts with a damaged cache

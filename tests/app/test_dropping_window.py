@@ -8,10 +8,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from dragging import Drag, window_of
+from driven import PATIENCE
 from PIL import Image
 from psd_tools import PSDImage
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 MOVES = 100  # of the pointer
 TRIES = 4  # something else may have the processor in each of them, but for the last
@@ -39,7 +40,7 @@ def photograph(tmp_path_factory):
     return path
 
 
-def until(good, seconds=60.0):
+def until(good, seconds=PATIENCE):
     end = time.monotonic() + seconds
     while not good():
         assert time.monotonic() < end
@@ -84,6 +85,7 @@ def test_a_picture_dropped_on_the_canvas_is_laid_there_as_a_layer_that_can_be_mo
     Drag(app.display, window_of(app), stone).drop(500, 400)
     app.click("Layer")
     until(lambda: shows(app.screen()[373:427, 459:541], stone))  # a pixel on a pixel of the frame, seen 1 : 1.46
+    app.until_rest()  # its box is there
     app.do("mousemove", 500, 400, "mousedown", 1, "mousemove", 560, 430, "mousemove", 600, 460, "mouseup", 1)
     until(lambda: shows(app.screen()[433:487, 559:641], stone))
     app.keys("ctrl+z", "ctrl+z")
@@ -122,6 +124,7 @@ def test_a_photoshop_file_comes_in_as_a_group_in_one_step(program, tmp_path):
     until(lambda: is_at(480, 390, orange) and is_at(420, 350, blue))
     for name in ("room", "Wall", "Pictures", "Frame"):
         app.box(name)
+    app.until_rest()
     app.do("mousemove", 500, 400, "mousedown", 1, "mousemove", 560, 430, "mousemove", 600, 460, "mouseup", 1)
     until(lambda: is_at(580, 450, orange) and is_at(520, 410, blue))
     app.keys("ctrl+z", "ctrl+z")
@@ -169,7 +172,7 @@ def test_a_photograph_that_is_dropped_anywhere_loses_no_frame(program, photograp
         if key:
             app.do("mousemove", 640, 300)
             app.keys(key)
-        app.settled(40.0)
+        app.settled()
         found = []
         while not found or (found[-1] >= most).any():
             assert len(found) < TRIES, f"{place}: {found} s, expected less than {most}; before it {usual}"

@@ -8,7 +8,7 @@ from xserver import need, started_screen
 
 from engine.journal.entries import listed
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 POINTER_ROOT = 1
 
 
@@ -19,7 +19,7 @@ def server():
     process, name = started_screen()
     yield process, name
     process.kill()
-    process.wait(10)
+    process.wait(90)
 
 
 def take_focus(display):
@@ -62,7 +62,7 @@ def test_a_stroke_stays_when_the_focus_goes_and_the_program_ends_well_when_the_d
     draw(app, (400, 300), (500, 350))
     app.canvas_unlike(empty)  # the display lives until the stroke has come to the program
     process.kill()
-    assert app.process.wait(30) == 0, app.log.read_text()
+    assert app.process.wait(90) == 0, app.log.read_text()
     words = app.log.read_text()
     assert "Fatal" not in words, words
     (kept,) = listed(app.folder / "state" / "inkfall" / "paintings")

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 MIDDLE = 560, 360
 
 
@@ -20,7 +20,7 @@ def ring(radius, gap=0.0):
 def app(program):
     """The window with a ring, one pixel of level 0 on one of the screen."""
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.keys("1")
     empty = app.canvas()
     app.stroke(*ring(110))
@@ -48,7 +48,7 @@ def test_a_click_fills_a_region_and_asks_before_it_runs_out_of_sight(app):
 @pytest.mark.nightly
 def test_a_colour_that_is_dropped_into_a_region_fills_it(app):
     colour = app.screen()[app.at("now")[::-1]].astype(int)
-    app.do("mousemove", *app.at("now"))
+    app.move_to(app.at("now"))
     app.do("mousedown", 1, "mousemove", 800, 300, "mousemove", *MIDDLE)
     app.until(lambda screen: (screen[MIDDLE[1], MIDDLE[0]] == colour).all(), MIDDLE)  # it goes along
     assert np.abs(app.screen()[MIDDLE[1] + 40, MIDDLE[0]].astype(int) - colour).max() > 8
@@ -69,10 +69,10 @@ def test_what_is_gone_round_is_filled_and_a_texture_that_is_dropped_into_a_regio
     app.keys("ctrl+z", "b")
     assert app.comes_to(app.outlined)
     app.click("Add texture")
-    app.do("mousemove", *app.at("texture Squares"))
+    app.move_to(app.at("texture Squares"))
     app.do("mousedown", 1, "mousemove", 900, 400)
     app.do("mousemove", 700, 380, "mousemove", *MIDDLE)
-    app.settled(calm=2)
+    app.settled()
     app.do("mouseup", 1)
     app.until_gone("texture Squares")
     laid = app.canvas_unlike(app.outlined)[230:370, 220:360]

@@ -83,5 +83,5 @@ def test_a_film_of_the_painting(program, tmp_path):
     window.keys("ctrl+q")
     window.click("Give it up")
     window.click("Don’t save")
-    assert window.process.wait(60) == 0
+    assert window.process.wait(90) == 0
     assert sorted(path.name for path in tmp_path.iterdir() if path.suffix in (".gif", ".part")) == ["flight.gif"]

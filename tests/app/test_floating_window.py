@@ -6,7 +6,7 @@ import pytest
 from engine.canvas import layers
 from engine.studio.filing.documents import opened
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 CHEQUER = 13  # of 255: the difference of the squares under the paint, which stay
 BOX = (470, 330), (560, 420)  # what is selected, on the screen
 CANVAS = (270, 60)  # where the canvas that is looked at begins on the screen

@@ -34,10 +34,9 @@ def test_within_it_all_of_it_moves(x, y):
 
 
 @pytest.mark.window
-@pytest.mark.timeout(180)
 def test_the_frame_is_dragged_in_the_window_and_no_paint_is_lost(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     empty = app.canvas()
     app.stroke(*((380 + 12 * i, 400) for i in range(24)))
     painted = app.canvas_unlike(empty)

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 @pytest.mark.nightly
 def test_a_grid_is_taken_back_and_a_stroke_along_a_ruler_is_straight(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.keys("1")
     empty = app.canvas()
     app.click("Guides menu")

@@ -10,7 +10,7 @@ from engine.canvas import layers
 from engine.canvas.placing.placement import Placement
 from engine.studio.filing.documents import opened
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 CORNERS = "top left", "top right", "bottom right", "bottom left"
 
 
@@ -22,7 +22,7 @@ def app(with_stroke):
 def handles(app):
     """Where the corners of the box are."""
     app.park()
-    app.settled()
+    app.until_rest()
     return [app.at(f"{name} handle") for name in CORNERS]
 
 
@@ -37,7 +37,7 @@ def test_a_corner_scales_by_powers_of_two_exactly_and_escape_gives_it_up(app, tm
     (x0, y0), _, (x1, y1), _ = handles(app)
     app.drag((x1, y1), ((x0 + x1) // 2, (y0 + y1) // 2))
     app.box("exactly 50 %")
-    app.do("key", "Escape")
+    app.keys("Escape")
     app.until_gone("exactly 50 %")
     app.do("mouseup", 1)
     app.keys("b")
@@ -113,6 +113,7 @@ def test_a_stroke_on_what_is_shown_again_paints_its_source_too(app):
     app.box("Layer 1 again")
     app.canvas_unlike(once)
     app.keys("v")  # it is chosen already
+    handles(app)
     app.drag((500, 300), (500, 480))
     app.do("mouseup", 1)
     app.keys("b")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 
 def line(app, y):
@@ -17,7 +17,7 @@ def canvas(app):
 
 def test_steps_are_looked_at_jumped_to_and_asked_for(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.keys("ctrl+h")
     app.box("Steps")
     pictures = [canvas(app)]

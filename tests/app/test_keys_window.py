@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 def bound_in(app):
@@ -16,7 +16,7 @@ def bound_in(app):
 @pytest.mark.nightly
 def test_a_key_and_a_wheel_are_bound_in_the_list_and_work_at_once_and_at_the_next_start(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.keys("F1")
     app.box("find keys")
     app.settled()
@@ -34,7 +34,8 @@ def test_a_key_and_a_wheel_are_bound_in_the_list_and_work_at_once_and_at_the_nex
     app.until_gone("row zoom")
     app.click("key in -1")
     app.box("Press a key…")
-    app.do("keydown", "ctrl", "click", 4, "keyup", "ctrl")
+    for words in (("keydown", "ctrl"), ("click", 4), ("keyup", "ctrl")):  # each at a time of its own
+        app.do(*words)
     app.wait_until(lambda: bound_in(app).get("in") == ["+", "=", "PageUp", "Ctrl+Wheel up"], "the wheel is not bound")
     app.keys("Escape")
     app.until_gone("find keys")
@@ -43,9 +44,9 @@ def test_a_key_and_a_wheel_are_bound_in_the_list_and_work_at_once_and_at_the_nex
     app.keys("b")
     app.until(lambda screen: np.abs(screen[lit] - before).max() > 40)
     app.process.terminate()
-    app.process.wait(30)
+    app.process.wait(90)
     app = program()
-    app.settled(60.0)
+    app.settled()
     before = app.parked()[lit]
     app.keys("b")
     app.until(lambda screen: np.abs(screen[lit] - before).max() > 40)

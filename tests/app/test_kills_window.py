@@ -102,7 +102,7 @@ def killed(app: Program, chance: random.Random, meets: str) -> Hand:
     beside.start()
     hand.work()
     beside.join()
-    app.process.wait(10)
+    app.process.wait(90)
     return hand
 
 

@@ -1,12 +1,10 @@
 """The texture lab in the real window: paint in the spectrum, paint with what it makes."""
 
-import time
-
 import numpy as np
 import pytest
 from screens import changed
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 POINTER = (700, 60)  # on the canvas, where it covers nothing that is looked at
 FACTS = ("Power spectrum", "Autocorrelation", "All-pole model", "Regions")
@@ -43,7 +41,7 @@ def test_paint_a_spectrum_then_paint_with_it(program):
 
     # Used as ink, it is what the next stroke is painted with.
     app.click("Use as ink")
-    app.do("key", "--repeat", 20, "--delay", 30, "bracketright")
+    app.keys(*["bracketright"] * 20)
     app.stroke(*LINE)
     stroke = (slice(190, 212), slice(320, 860))
     first = app.until(lambda screen: changed(screen[stroke], opened[stroke]) > 3000, POINTER)
@@ -52,8 +50,7 @@ def test_paint_a_spectrum_then_paint_with_it(program):
     # It follows the lab: another spectrum, and the next stroke is another one.
     app.click("In view")
     app.until(lambda screen: changed(screen[texture], painted[texture]) > 3000, POINTER)
-    time.sleep(0.5)
-    app.do("mousemove", *POINTER)
+    app.move_to(POINTER)
     app.keys("ctrl+z")
     app.until(lambda screen: changed(screen[stroke], opened[stroke]) < 50, POINTER)
     app.stroke(*LINE)

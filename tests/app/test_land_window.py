@@ -5,7 +5,7 @@ import json
 import pytest
 from screens import changed
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 ROWS = (
     {"inkfall": 1, "frame": [0, 0, 400, 300], "seed": 7},

@@ -6,12 +6,12 @@ import pytest
 from engine.archive.opening import open_painting
 from engine.canvas import layers
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 def test_the_tooltip_of_a_layer_covers_no_row(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     for name in ("Layer 1", "Layer 2", "Layer 3"):
         app.click("add_layer")
         app.box(name)
@@ -23,7 +23,9 @@ def test_the_tooltip_of_a_layer_covers_no_row(program):
     column = slice(rows[0][0].start, 730), slice(left, 1280)
     still = app.parked()
     for over in ("Layer 3", "eye"):
-        pointed = app.parked(app.at(over))
+        app.move_to(app.at(over))
+        app.box("tooltip")
+        pointed = app.settled().astype(int)
         app.box("tooltip")
         assert np.array_equal(pointed[column], still[column]), f"the tooltip of {over} covers what is below"
 
@@ -63,7 +65,7 @@ def test_another_active_layer_is_brought_into_sight(program):
 @pytest.mark.nightly
 def test_how_high_and_how_wet_the_land_is_are_dragged_in_one_step_each(program, tmp_path):
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.click("add_layer")
     app.box("Layer 1")
     app.click("Layer menu")

@@ -8,7 +8,7 @@ import pytest
 from app.__main__ import main
 from engine.files.images import read_image
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 WIDTH, HEIGHT = 300, 200
 EDGE = 8  # within which the frame is marked
 BRUSH = {"radius": 30, "colour": "#a06040", "ink": [{"texture": "rock", "amount": 0.6, "period": 24}]}
@@ -46,7 +46,7 @@ def exported(app, path):
 def test_the_window_shows_what_the_export_does(program, tmp_path):
     (tmp_path / "a.jsonl").write_text("\n".join(map(json.dumps, LINES)) + "\n")
     app = program(str(tmp_path / "a.jsonl"))
-    app.settled(60.0)
+    app.settled()
     app.keys("1")
     assert main(["play", str(tmp_path / "a.jsonl"), "--save", str(tmp_path / "a.ora")]) == 0
     pictures = {}

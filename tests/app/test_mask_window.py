@@ -10,12 +10,12 @@ from engine.painting.recording import Header
 from engine.painting.value import first_painting
 from engine.session.session import Session
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 def test_a_mask_is_painted_by_the_brush_and_seen_alone(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     empty = app.canvas()
     app.stroke(*((380 + 12 * i, 400) for i in range(24)))
     painted = app.canvas_unlike(empty)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from screens import changed
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 CANVAS = (slice(60, 400), slice(280, 960))
 LINE = [(300 + 20 * i, 120 + (25 if i % 6 < 3 else -25)) for i in range(30)]

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180), pytest.mark.nightly]
+pytestmark = [pytest.mark.window, pytest.mark.nightly]
 
 
 def test_layers_are_merged_and_what_would_be_lost_is_told_before(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     empty = app.canvas()
     app.stroke(*((380 + 12 * i, 400) for i in range(24)))
     one = app.canvas_unlike(empty)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 FROM, TO = (500, 357), (580, 417)  # within the box, far from its handles
 CHEQUER = 13  # of 255: the difference of the squares under the paint, which stay
 INNER = slice(150, 560), slice(150, 560)  # of the canvas, far from its rims
@@ -17,6 +17,7 @@ def app(with_stroke):
 def test_a_layer_is_dragged_and_nudged_and_nothing_of_it_is_lost(app):
     painted = app.canvas()
     app.keys("v")
+    app.at("turn handle")
     app.stroke(FROM, (530, 380), (560, 400), TO)
     app.keys("b")  # without the box
     dragged = app.canvas_unlike(painted)
@@ -36,6 +37,7 @@ def test_what_is_shown_again_is_moved_by_itself_and_leads_to_its_source(app):
     app.box("Layer 1 again")
     twice = app.canvas_unlike(once)
     app.keys("v")  # it is chosen already
+    app.at("turn handle")
     app.stroke(FROM, (540, 390), TO)
     app.keys("b")
     apart = app.canvas_unlike(twice)

@@ -65,7 +65,6 @@ def test_the_help_lists_it_beside_the_others(veil, capsys):
 
 
 @pytest.mark.window
-@pytest.mark.timeout(240)
 def test_the_brush_panel_shows_it_and_what_is_painted_is_played_to_the_same_pixels(program, tmp_path, veil):
     app = program(module="veil_mode")
     empty = app.canvas()

@@ -178,7 +178,7 @@ def test_nothing_waits_where_nothing_happens(events):
     one = paced(CARD)
     frame(one, growing=False)
     one.wait(False)
-    one.wait(False, typing=True)
+    one.wait(False, idle=pace.BLINK)
     assert events.waited == [pace.IDLE, pace.BLINK]
     one.told()
     assert events.woken == 0  # frames go on

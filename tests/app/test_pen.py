@@ -15,7 +15,7 @@ from xserver import lacking, need, started_server
 from app.input.events import ENDS
 from app.input.xinput2 import Libraries
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 UNITS_X, UNITS_Y = 65536 / 1280, 65536 / 800  # of the driver's axes in a pixel
 HEAVIEST = 1000.0
 WHOLE_NUMBER = 19  # what Xlib calls XA_INTEGER
@@ -34,7 +34,7 @@ def pen(tmp_path_factory):
     held = inputtest.Pen(folder / "socket")
     yield display, held
     process.terminate()
-    process.wait(10)
+    process.wait(90)
     held.close()
 
 
@@ -56,9 +56,8 @@ def test_pressure_arrives_as_paint(program, pen):
     held.press(False)
     moved(held, 700, 790, 0.0)
     held.sync()
-    painted, end = app.settled().astype(int), time.monotonic() + 90
-    while not np.abs(painted - empty)[:, 720:820].any() and time.monotonic() < end:
-        painted = app.settled().astype(int)
+    app.until_rest((700, 790))
+    painted = app.settled().astype(int)
     ink = np.abs(painted - empty).sum(axis=(0, 2))
     light, heavy = ink[400:500].sum(), ink[720:820].sum()
     assert heavy > 0
@@ -84,7 +83,7 @@ class Hand:
         """What the frame shows when all is done, int (240, 320, 3), the pen being away."""
         moved(self.pen, 640, 790, 0.0)
         self.app.until_rest((640, 790))
-        return self.app.screen()[self.top : self.top + 240, self.left : self.left + 320].astype(int)
+        return self.app.settled()[self.top : self.top + 240, self.left : self.left + 320].astype(int)
 
     def along(self, *places, steps=8):
         """Presses, moves with a growing pressure, and lifts; what it changed in the frame, bool (240, 320)."""
@@ -106,7 +105,7 @@ def test_with_the_pen_one_selects_masks_fills_draws_shapes_by_rulers_and_around_
     (tmp_path / "tile.jsonl").write_text("\n".join(map(json.dumps, LINES)) + "\n")
     app = program(str(tmp_path / "tile.jsonl"), on=display)
     held.near(True)
-    app.settled(60.0)
+    app.settled()
     app.keys("1", "b", *["bracketright"] * 6)
     hand = Hand(app, held)
     ruled = hand.along((40, 195), (120, 206), (200, 193), (260, 203))
@@ -171,8 +170,10 @@ def test_every_report_arrives_in_order_with_its_fractions(pen):
         for i in range(1000):
             held.move((100 + i * 0.37) * UNITS_X, 300 * UNITS_Y, i)
         held.sync()
-        time.sleep(0.3)
-        events = source.events()
+        events, end = source.events(), time.monotonic() + 90
+        while len(events) < 1000 and time.monotonic() < end:
+            time.sleep(0.02)
+            events += source.events()
     assert len(events) == 1000
     assert all(event.pen for event in events)
     assert np.allclose([e.pressure for e in events], np.arange(1000) / 1000)

@@ -11,7 +11,7 @@ from engine.painting import commands as c
 from engine.painting.places import middle_of
 from engine.session.session import Session
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(280)]
+pytestmark = pytest.mark.window
 DEEP = 700 << 9, 500 << 9
 
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 def test_a_right_click_opens_favourites_under_the_pointer_and_choosing_escape_and_a_press_beside_close_them(program):

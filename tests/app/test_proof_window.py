@@ -3,7 +3,7 @@
 import pytest
 from PIL import ImageCms
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 SRGB = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
 
 
@@ -18,7 +18,7 @@ def test_the_window_is_sent_by_the_profile_and_what_is_painted_stays(program, tm
     folder.mkdir(parents=True)
     (folder / "preferences.toml").write_text(f'[display]\nprofile = "{path}"\nproof = "{path}"\n')
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.box("status: Profile")
     app.keys("1")
     empty = app.canvas()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 LINE = [(400 + 10 * i, 340) for i in range(25)]
 ON, OFF = (520, 340), (520, 500)  # on the line, and beside it
 
@@ -16,7 +16,7 @@ def tinted(screen, at):
 @pytest.mark.nightly
 def test_the_brush_paints_what_is_selected_and_the_eraser_takes_it_away(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.keys("1", *["bracketright"] * 16)
     empty = app.canvas()
     app.keys("q")

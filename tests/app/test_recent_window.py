@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180), pytest.mark.nightly]
+pytestmark = [pytest.mark.window, pytest.mark.nightly]
 
 
 def test_a_painting_is_opened_again_from_the_menu_and_brought_into_another_one(with_stroke):

@@ -7,7 +7,7 @@ import pytest
 from driven import REST
 
 FILE_MENU = (22, 12)  # on the screen
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 
 def unsteadied(app):
@@ -27,6 +27,7 @@ def held(app, *points):
     for point in (*points[1:], (x + 1, y), (x + 2, y), (x, y)):
         app.do("mousemove", *point)
     app.until_rest((x, y))
+    app.until_kept()
     return away_from((x, y), app.settled()[60:740, 270:970].astype(int))
 
 
@@ -48,7 +49,7 @@ def test_what_was_painted_is_had_back_after_a_signal_and_after_a_kill(program):
     painted = held(app, (700, 250), (760, 300), (800, 380))
     assert not np.array_equal(painted, away_from((800, 380), before))
     app.process.send_signal(signal.SIGHUP)
-    assert app.process.wait(30) == 0, app.log.read_text()
+    assert app.process.wait(90) == 0, app.log.read_text()
     app.do("mouseup", 1)
 
     app = program(ready="cards: 1")
@@ -61,7 +62,7 @@ def test_what_was_painted_is_had_back_after_a_signal_and_after_a_kill(program):
     painted = held(app, (350, 600), (500, 640), (650, 600))
     assert not np.array_equal(painted, away_from((650, 600), before))
     app.process.send_signal(signal.SIGKILL)
-    app.process.wait(30)
+    app.process.wait(90)
     app.do("mouseup", 1)
 
     app = program(ready="cards: 1")
@@ -72,7 +73,7 @@ def test_what_was_painted_is_had_back_after_a_signal_and_after_a_kill(program):
     app.canvas_unlike(painted)
     app.keys("ctrl+q")
     app.click("Don’t save")
-    assert app.process.wait(30) == 0, app.log.read_text()
+    assert app.process.wait(90) == 0, app.log.read_text()
 
     app = program(ready="cards: 0")
     app.click(FILE_MENU)
@@ -84,7 +85,7 @@ def test_what_was_painted_is_had_back_after_a_signal_and_after_a_kill(program):
 
 def test_an_engine_that_dies_is_started_again_with_the_painting_as_it_was(program):
     app = program(module="dying")
-    app.do("mousemove", 500, 400)
+    app.move_to((500, 400))
     app.wheel(1)
     empty = app.canvas()
     app.stroke((400, 300), (500, 420), (600, 300))

@@ -6,7 +6,7 @@ from dragging import Drag
 from PIL import Image
 from test_dropping_window import until, window_of
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 @pytest.fixture

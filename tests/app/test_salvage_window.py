@@ -8,7 +8,7 @@ from engine.archive.saving import Snapshot, save
 from engine.painting import commands as c
 from engine.session.session import Session
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 
 FRAME = slice(80, 595), slice(5, 695)  # rows and columns of the canvas on which the frame lies

@@ -13,7 +13,7 @@ from xserver import started_screen
 from engine.archive.saving import MERGED
 
 WANTED = "expected a whole number from 1 to 100"
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def other_display(display):
     process, name = started_screen()
     yield name
     process.terminate()
-    process.wait(10)
+    process.wait(90)
 
 
 def picture(path):
@@ -29,7 +29,7 @@ def picture(path):
         return np.asarray(merged.convert("RGBA")).astype(int)
 
 
-def until(good, seconds=60.0):
+def until(good, seconds=90.0):
     end = time.monotonic() + seconds
     while not good():
         assert time.monotonic() < end

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 def test_an_ellipse_is_chosen_from_the_list_and_drawn_and_taken_back(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.keys("1")
     app.click("shapes")
     app.click("shape draw_ellipse")

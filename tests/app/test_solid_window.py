@@ -6,7 +6,7 @@ from screens import changed
 
 from engine.solids.cube_files import write_cube
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 
 @pytest.mark.nightly

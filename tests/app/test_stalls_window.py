@@ -1,29 +1,15 @@
 """What came while the program stood still, as on a loaded machine, happens in the order in which it was done."""
 
-import signal
-
 import numpy as np
 import pytest
+from driven import Stalled
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
-
-
-class Stalled:
-    """A program that stands still while things are done to it."""
-
-    def __init__(self, app):
-        self.app = app
-
-    def __enter__(self):
-        self.app.process.send_signal(signal.SIGSTOP)
-
-    def __exit__(self, *_):
-        self.app.process.send_signal(signal.SIGCONT)
+pytestmark = pytest.mark.window
 
 
 def test_keys_and_presses_are_taken_in_their_order(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     empty = app.canvas()
     with Stalled(app):  # the view moves, there and back, and nothing is painted
         app.do("keydown", "space")

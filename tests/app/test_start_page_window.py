@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 def kept_by(app):
@@ -25,7 +25,7 @@ def test_a_press_beside_the_page_closes_it_and_paints_and_it_never_comes_again(p
     app.do("mousemove", (left + right) // 2, top + 30)
     app.wait_until(lambda: kept_by(app)["brush"]["name"] == "Soft airbrush", "the brush is not kept")
     app.process.terminate()
-    app.process.wait(30)
+    app.process.wait(90)
     again = program(first=True)
     again.box("Close", "A painting that was not closed")
     again.keys("Escape")

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 NEAR = 6  # of 255: where two strokes meet their dabs come in another order
 
 
 @pytest.mark.nightly
 def test_a_stroke_is_mirrored_while_the_view_is_turned_and_the_axis_with_it(program):
     app = program()
-    app.settled(60.0)
+    app.settled()
     app.keys("1")
     empty = app.canvas()
     app.keys("y")

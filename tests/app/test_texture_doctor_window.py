@@ -10,7 +10,7 @@ from test_dropping_window import window_of
 
 from engine.makers.doctor.trying import TRIED
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 LINE = [(340 + 20 * i, 240 + (25 if i % 6 < 3 else -25)) for i in range(26)]
 

@@ -4,12 +4,12 @@ import time
 
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.window
 
 
 def test_keys_just_before_a_dialog_are_not_typed_into_it(program):
     app = program()
-    app.do("mousemove", 640, 300)
+    app.move_to((640, 300))
     app.settled()
     app.do("key", "--delay", 2, *"bebxxxccc", "ctrl+s")
     app.box("name", "Save as")
@@ -28,10 +28,12 @@ def test_a_field_takes_what_is_typed_right_after_a_click(program):
     radius = app.part("Radius")
     number = radius[0], slice(150, radius[1].stop)  # the slider's right end
     before = app.screen()[number].astype(int)
-    app.do("mousemove", *app.at("Radius"))
-    time.sleep(0.3)
-    app.do("keydown", "ctrl", "click", 1, "keyup", "ctrl", "key", "--delay", 2, *"77", "Return")
-    app.do("mousemove", 640, 300)
+    app.move_to(app.at("Radius"))
+    app.do("keydown", "ctrl")
+    app.do("click", 1, "keyup", "ctrl", "key", "--delay", 2, *"78", "Return")
+    app.wait_until(lambda: "typing on" in app.log.read_text(), "no field takes what is typed")
+    app.wait_until(lambda: not app.typing(), "the field is still there")
+    app.move_to((640, 300))
     assert abs(app.settled()[number].astype(int) - before).max() > 60
 
 

@@ -8,7 +8,7 @@ from PIL import Image
 
 from engine.files.swatches.palette_files import read_palette
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 
 
 def kept_wheel(app):

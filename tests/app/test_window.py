@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 WAVE = [(380 + 12 * i, 400 + (30 if i % 8 < 4 else -30)) for i in range(24)]
 
@@ -26,13 +26,11 @@ def test_paint_zoom_undo_save_reopen(program, tmp_path):
     assert differing(empty, painted) > 1500
 
     # Twenty levels in and out about one point: exactly the same picture again.
-    app.do("mousemove", 600, 400)
+    app.move_to((600, 400))
     app.wheel(80)
-    time.sleep(0.5)
     deep = app.settled()
     assert differing(deep[60:740, 270:970].astype(int), painted) > 1000
     app.wheel(-80)
-    time.sleep(0.5)
     app.settled()
     assert app.comes_to(painted)
 
@@ -45,7 +43,7 @@ def test_paint_zoom_undo_save_reopen(program, tmp_path):
     app.save_as(tmp_path / "picture.ora")
     assert app.comes_to(painted)
     app.keys("ctrl+q")
-    assert app.process.wait(15) == 0
+    assert app.process.wait(90) == 0
 
     again = program(str(tmp_path / "picture.ora"))
     again.wait_for("painting 1 shown")
@@ -54,15 +52,15 @@ def test_paint_zoom_undo_save_reopen(program, tmp_path):
 
 def test_a_stroke_twenty_levels_deep_is_there_again_after_going_away(program):
     app = program()
-    app.do("mousemove", 600, 400)
+    app.move_to((600, 400))
     app.wheel(80)
     bare = app.canvas()
     app.stroke(*WAVE)
     deep = app.canvas_unlike(bare)
-    app.do("mousemove", 600, 400)
+    app.move_to((600, 400))
     app.wheel(-80)
     far = app.canvas()
-    app.do("mousemove", 600, 400)
+    app.move_to((600, 400))
     app.wheel(80)
     assert app.comes_to(deep)
     assert differing(far, deep) > 1500
@@ -84,7 +82,7 @@ def test_the_keys_for_the_view_and_the_panels(program):
     shown = app.settled()
     assert differing(hidden[:, :240].astype(int), shown[:, :240].astype(int)) > 5000
     app.keys("1")
-    time.sleep(0.5)
+    app.canvas()
     app.keys("f")
     assert app.comes_to(before)
 
@@ -99,7 +97,7 @@ def test_an_idle_window_sleeps(program):
         fields = Path(f"/proc/{app.process.pid}/stat").read_text().rpartition(")")[2].split()
         return (int(fields[11]) + int(fields[12])) / 100
 
-    end, taken = time.monotonic() + 60.0, 4.0
+    end, taken = time.monotonic() + 90.0, 4.0
     while taken > 0.12:  # 3 % of one core
         assert time.monotonic() < end, f"{taken:.2f} s of the processor in 4"
         before = used()
@@ -118,7 +116,7 @@ def test_escape_abandons_a_stroke(program):
     app = program()
     empty = app.canvas()
     app.do("mousemove", 400, 400, "mousedown", 1, "mousemove", 500, 420, "mousemove", 600, 400)
-    time.sleep(0.3)
+    app.until_rest((600, 400))  # the key goes another way than the pointer, and may be there before it
     app.keys("Escape")
     app.do("mouseup", 1)
     assert app.comes_to(empty)
@@ -127,23 +125,21 @@ def test_escape_abandons_a_stroke(program):
 def test_what_the_window_system_lost_is_drawn_again(program):
     app = program()
     app.stroke(*WAVE)
-    app.canvas()
-    time.sleep(1.5)  # frames linger
-    shown = app.settled()
+    shown = app.canvas()
     app.do("search", "--name", "Inkfall", "windowunmap", "--sync")
-    assert differing(shown.astype(int), app.screen().astype(int)) > 100_000
+    assert differing(shown, app.screen()[60:740, 270:970].astype(int)) > 100_000
     app.do("search", "--name", "Inkfall", "windowmap", "--sync")
-    assert np.array_equal(app.settled(), shown)
+    assert app.comes_to(shown)
 
 
 def test_hovering_shows_in_a_panel_that_was_at_rest(program):
     app = program()
-    app.parked()
+    at, part = app.at("eraser"), app.part("eraser")
+    still = app.parked()[part]
     time.sleep(1.5)  # frames linger
-    still = app.parked()
-    over = app.parked(app.at("eraser"))
+    over = app.parked(at)[part]
     assert differing(still, over) > 100
-    assert np.array_equal(app.parked(), still)
+    assert np.array_equal(app.parked()[part], still)
 
 
 def test_what_was_in_the_middle_comes_back_when_a_strip_is_closed_by_its_sign(with_stroke):

@@ -6,7 +6,7 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+pytestmark = pytest.mark.window
 
 TEXT = "ramp(noise(x*3, y*3), #ff1000, #0010ff)"
 LINE = [(320 + 20 * i, 120 + (20 if i % 6 < 3 else -20)) for i in range(30)]

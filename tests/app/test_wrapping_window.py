@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.window
 WIDTH, HEIGHT = 256, 192
 SQUARES = 20  # of 255: between those of paper without a colour
 LINES = (
@@ -19,10 +19,10 @@ LINES = (
 def test_a_stroke_over_the_rim_is_seen_in_every_tile_while_it_is_painted(program, tmp_path):
     (tmp_path / "tile.jsonl").write_text("\n".join(map(json.dumps, LINES)) + "\n")
     app = program(str(tmp_path / "tile.jsonl"))
-    app.settled(60.0)
+    app.settled()
     app.keys("1")
     app.until(lambda screen: 180 < dark_red(screen[60:740, 270:970]).sum() < 330)  # the view has come to rest
-    once = app.canvas(calm=8)
+    once = app.canvas()
     app.keys("ctrl+alt+w")
     tiles = app.canvas_unlike(once)
     assert dark_red(tiles).sum() > 4 * dark_red(once).sum() > 0

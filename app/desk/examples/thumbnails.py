@@ -77,6 +77,11 @@ class Shelf:
             found.append(self._ready.popleft())
         return found
 
+    @property
+    def busy(self) -> bool:
+        """Tells whether pictures are made, or to be taken."""
+        return bool(self._ready) or (self._thread is not None and self._thread.is_alive())
+
     def _work(self) -> None:
         while self._wanted:
             make = self._wanted.popleft()

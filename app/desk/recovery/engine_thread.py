@@ -40,6 +40,11 @@ class EngineThread:
         """Returns what came to be seen of the painting, as far as nothing else came before."""
         return self.worker.results(seen=True)
 
+    @property
+    def kept(self) -> bool:
+        """Tells whether all that was painted is on disk."""
+        return self.worker.journal is None or self.worker.journal.settled
+
     def _post(self, request: Request) -> None:
         self.worker.post(at_time(request, round(time.time(), 3)))
 

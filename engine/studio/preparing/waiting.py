@@ -90,6 +90,11 @@ class Waiting:
         return self._line.waits
 
     @property
+    def unseen(self) -> bool:
+        """Tells whether pictures wait for kernels."""
+        return self._unseen is not None
+
+    @property
     def pending(self) -> int:
         """Pieces of open work that can be done now."""
         return self._seen + self._swatches.pending

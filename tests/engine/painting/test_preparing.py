@@ -256,7 +256,6 @@ def _alive(pid):
     return text.rpartition(")")[2].split()[0] != "Z"
 
 
-@pytest.mark.timeout(280)
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks at processes in /proc")
 @pytest.mark.parametrize("brush", [Brush(mode="example", example="a"), Brush(grain=Surface("weave"))])
 def test_a_brush_that_names_what_only_a_painting_has_is_no_fault(brush):

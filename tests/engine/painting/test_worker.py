@@ -16,7 +16,7 @@ class Bench:
     """A stand-in that writes down what it is asked to do; `gate` holds it up."""
 
     due = endless = None
-    waits = False
+    waits = unseen = False
 
     def __init__(self, send):
         self.send, self.did, self.open, self.gate = send, [], [], threading.Event()
@@ -24,7 +24,7 @@ class Bench:
         send(results.Ready())
 
     def do(self, request):
-        self.gate.wait(5)
+        self.gate.wait(90)
         self.did.append(request)
         if isinstance(request, q.Export):
             raise Refusal("it did not work\nand more that nobody wants to read")
@@ -35,7 +35,7 @@ class Bench:
         self.open = list(request.tiles)
 
     def step(self):
-        self.gate.wait(5)
+        self.gate.wait(90)
         self.did.append(self.open.pop(0))
         return True
 
@@ -62,9 +62,10 @@ def worker():
         return made[0]
 
     one = Worker(woken.set, make)
-    woken.wait(5)
+    woken.wait(90)
     one.bench, one.woken = made[0], woken
     yield one
+    made[0].gate.set()
     one.close()
 
 
@@ -89,6 +90,20 @@ def test_it_is_behind_until_all_is_carried_out_and_its_results_are_taken(worker)
         assert time.monotonic() < end
         time.sleep(0.01)
     assert bench.did == [q.Finish()]
+
+
+def test_it_is_settled_when_nothing_is_left_to_be_seen_either(worker):
+    one, bench = worker, worker.bench
+    until(lambda: not one.results() and one.settled)
+    bench.unseen = True  # pictures wait for what is made elsewhere
+    one.post(q.Finish())
+    until(lambda: bench.did)
+    one.results()
+    time.sleep(0.05)
+    assert not one.settled
+    bench.unseen = False
+    one.post(q.Finish())
+    until(lambda: not one.results() and one.settled)
 
 
 def test_what_is_posted_while_it_closes_is_carried_out(worker):
@@ -179,7 +194,8 @@ def test_swatches_that_are_wanted_soon_go_first(worker):
     assert [swatch.ident for swatch in worker.bench.did[1:]] == ["brush", "a", "b"]
 
 
-def test_tiles_let_a_swatch_pass_now_and_then(worker):
+def test_tiles_let_a_swatch_pass_now_and_then(worker, monkeypatch):
+    monkeypatch.setattr("engine.studio.worker.PASSING", 5.0)  # of which the machine may do something else
     worker.bench.gate.clear()
     worker.post(q.Look(tuple((0, n, 0, -1) for n in range(2000))))
     until(lambda: worker.bench.open)
@@ -233,7 +249,7 @@ def test_an_engine_that_does_not_load_is_told(faults):
         raise ImportError("no numba here")
 
     worker = Worker(woken.set, broken)
-    woken.wait(5)
+    woken.wait(90)
     assert worker.results() == [
         results.Note("The paint engine did not load", True, True, True, ("copy_details",), "engine")
     ]
@@ -241,34 +257,41 @@ def test_an_engine_that_does_not_load_is_told(faults):
     worker.close()
 
 
-FEW = 10  # pieces of work that are done without a turn while a test looks, at most
+UNTURNED = 0.05  # seconds that open work waits for its turn, at most
+
+
+def few(began):
+    """Pieces of work that are done without a turn since then, at most."""
+    return 2 + (time.monotonic() - began) / UNTURNED
 
 
 def held(worker, count=1000):
-    """A worker whose turn is over, with open work."""
+    """A worker whose turn is over, with open work; since when."""
     worker.bench.gate.clear()
     worker.post(q.Look(tuple((0, n, 0, -1) for n in range(count))))
     until(lambda: len(worker.bench.open) == count)
     worker.turn(time.monotonic() - 1.0)
+    began = time.monotonic()
     worker.bench.gate.set()
+    return began
 
 
 def test_open_work_waits_for_its_turn(worker):
-    held(worker)
+    began = held(worker)
     time.sleep(0.1)
-    assert len(worker.bench.did) < FEW
+    assert len(worker.bench.did) <= few(began)
     worker.turn(None)
     until(lambda: len(worker.bench.did) == 1000)
 
 
 def test_a_turn_ends_by_itself(worker):
     held(worker, 1_000_000)
-    worker.turn(time.monotonic() + 0.1)
+    until(lambda: worker.turn(time.monotonic() + 0.1) or len(worker.bench.did) > 100)
     time.sleep(0.2)
-    did = len(worker.bench.did)
-    assert FEW < did < 1_000_000
+    did, began = len(worker.bench.did), time.monotonic()
+    assert did < 1_000_000
     time.sleep(0.1)
-    assert len(worker.bench.did) < did + FEW
+    assert len(worker.bench.did) <= did + few(began)
 
 
 def test_work_goes_on_slowly_where_no_turn_ever_comes(worker):
@@ -277,10 +300,10 @@ def test_work_goes_on_slowly_where_no_turn_ever_comes(worker):
 
 
 def test_commands_need_no_turn(worker):
-    held(worker)
+    began = held(worker)
     worker.post(q.Finish())
     until(lambda: q.Finish() in worker.bench.did)
-    assert len(worker.bench.did) < FEW
+    assert len(worker.bench.did) <= few(began) + 1
 
 
 def test_a_swatch_waits_until_turns_are_over(worker):
@@ -302,11 +325,12 @@ def test_a_swatch_does_not_wait_for_ever(worker, monkeypatch):
 def test_swatches_that_waited_come_one_by_one(worker, monkeypatch):
     monkeypatch.setattr("engine.studio.worker.LONGER", 0.1)
     worker.turn(time.monotonic() - 1.0)
+    began = time.monotonic()
     for n in range(20):
         worker.post(q.Swatch(f"{n}", None, (1, 1)))
     until(lambda: worker.bench.did)
     time.sleep(0.25)
-    assert len(worker.bench.did) < FEW
+    assert len(worker.bench.did) <= few(began)
 
 
 def test_what_plays_has_its_turns_too(worker):
@@ -314,19 +338,19 @@ def test_what_plays_has_its_turns_too(worker):
     worker.turn(time.monotonic() - 1.0)
     worker.post(q.Finish())
     until(lambda: "play" in worker.bench.did)
-    did = len(worker.bench.did)
+    did, began = len(worker.bench.did), time.monotonic()
     time.sleep(0.1)
-    assert len(worker.bench.did) < did + FEW
+    assert len(worker.bench.did) <= did + few(began)
     worker.turn(None)
-    until(lambda: len(worker.bench.did) > did + 10 * FEW)
+    until(lambda: len(worker.bench.did) > did + 100)
 
 
 def test_closing_waits_as_long_as_it_takes(worker):
     worker.bench.gate.clear()
     worker.post(q.Finish())
-    threading.Timer(0.3, worker.bench.gate.set).start()
     worker.close(0.05)
     assert "closed" not in worker.bench.did
+    worker.bench.gate.set()
     worker.close(None)
     assert worker.bench.did[-1] == "closed"
 
