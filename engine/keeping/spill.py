@@ -61,6 +61,7 @@ class Spill:
         self._room: dict[int, list[int]] = {}  # by size: places that are free
         self._places: dict[int, _Place] = {}  # of the pieces
         self._freed: deque[ReferenceType[Spilled]] = deque()  # places that are to be added to those that are free
+        self._tell = self._freed.append  # one for all places: each would have an object of its own else
         self.held = self.length = 0
 
     def put(self, piece: bytes) -> Spilled | None:
@@ -83,7 +84,7 @@ class Spill:
                 self.length += size
             self.held += len(piece)
             spilled = Spilled(self, at, piece)
-            place = self._places[at] = _Place(spilled, self._freed.append)
+            place = self._places[at] = _Place(spilled, self._tell)
             place.at, place.size = at, spilled.size
         return spilled
 

@@ -18,7 +18,7 @@ from engine.session.differing import apart_records, apart_tiles, difference
 from engine.session.held_pyramids import changed_nodes, pyramids_of, related
 from engine.texture.example.tiles import TilePlanes
 
-KEPT_WHOLE = 256  # steps that are never made thin
+KEPT_WHOLE = 64  # steps that are never made thin: each holds the pages that it changed as they were
 _PRESSED = 12  # steps that are coded at once, where the newest asks for room
 STEP_OVERHEAD = 6000  # bytes of a step's own objects, roughly: most are nodes of the maps of some ten levels
 
