@@ -17,6 +17,8 @@ from engine.painting.rendering import folded_layers
 from engine.terrain.plane import ALPHA, COMPOSITE, DEEP, Land
 
 _OVERVIEW = 192  # pixels of the longer side of what is looked at to know how high the land is
+_STRIP = 256  # rows whose colours are worked out at a time
+_FARTHEST = 30  # rows away that have a part in a colour: the filters' reach, and a neighbour
 _ROCK, _DARK_ROCK = (0.205, 0.175, 0.148), (0.115, 0.102, 0.095)
 _GRASS, _DRY_GRASS = (0.052, 0.098, 0.030), (0.120, 0.125, 0.058)
 _SAND, _SNOW = (0.32, 0.26, 0.17), (0.84, 0.87, 0.92)
@@ -48,6 +50,15 @@ class Cover:
         return out.astype(np.float32)
 
     def _grown(self, level: int, heights: np.ndarray, base: float) -> np.ndarray:
+        """Returns what grows there, strip by strip: what comes and goes meanwhile would be ten times the heights."""
+        out = np.empty((*heights.shape, 3), np.float32)
+        for y in range(0, len(heights), _STRIP):
+            first = max(0, y - _FARTHEST)
+            part = self._strip(level, heights[first : y + _STRIP + _FARTHEST], base)
+            out[y : y + _STRIP] = part[y - first : y - first + _STRIP]
+        return out
+
+    def _strip(self, level: int, heights: np.ndarray, base: float) -> np.ndarray:
         from scipy.ndimage import gaussian_filter  # here: it takes its time to load
 
         h = heights.astype(np.float32)

@@ -94,6 +94,14 @@ def test_windows_can_be_given_up_and_come_to_the_same_piece_by_piece(seen):
         windows(seen, 30.0, cancelled=lambda: next(left, True))
 
 
+def test_what_grows_is_the_same_worked_out_strip_by_strip(seen, monkeypatch):
+    monkeypatch.setattr("engine.terrain.drape._STRIP", 1000)
+    _, whole = windows(seen, 30.0)
+    monkeypatch.setattr("engine.terrain.drape._STRIP", 40)
+    _, strips = windows(seen, 30.0)
+    assert np.array_equal(whole.colours, strips.colours)
+
+
 def test_a_sharp_picture_has_more_land_near_the_eye_and_not_too_much_in_all(seen):
     deep = Camera(26, Fraction(128 << 26), Fraction(128 << 26), 20.0, 0.0, -24.0, 55.0)
     sides = []
