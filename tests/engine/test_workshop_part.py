@@ -105,17 +105,20 @@ def test_the_first_picture_comes_before_all_else(room):
     assert np.abs(reduced - first).mean() < 3.0
 
 
-def test_the_first_picture_of_a_dear_text_is_small(room, monkeypatch):
-    room.scene(WALL)
-    monkeypatch.setattr(workshop, "_SOON", 1e3)
-    room.workshop.handlers[wr.WorkshopSet](wr.WorkshopSet(WALL.rstrip() + "*0.9", size=SIZE))
-    room.sent.clear()
+@pytest.mark.parametrize(("soon", "part"), [(1e3, 4), (4e6, 1)])
+def test_the_first_picture_of_a_dear_text_is_of_one_sample_or_small(room, monkeypatch, soon, part):
+    text = "fract(x*40)*cells(x*40, y*40)"
+    monkeypatch.setattr(workshop, "_SOON", soon)
+    room.workshop.handlers[wr.WorkshopSet](wr.WorkshopSet(text, size=(96, 96)))
     while not room.pictures() and room.workshop.pending:
         room.workshop.step()
-    assert room.pictures()["workshop texture"].shape[:2] == (SIZE[1] // 8, SIZE[0] // 8)
+    first = room.pictures()["workshop texture"].astype(float)
+    assert first.shape[:2] == (96 // part, 96 // part)
     while room.workshop.pending:
         room.workshop.step()
-    assert room.pictures()["workshop texture"].shape[:2] == SIZE[::-1]
+    whole = room.pictures()["workshop texture"]
+    assert whole.shape[:2] == (96, 96)
+    assert part > 1 or 0.0 < np.abs(whole - first).mean() < 30.0
 
 
 def test_a_mistake_tells_its_place_and_leaves_what_was_right(room):

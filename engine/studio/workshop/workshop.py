@@ -21,13 +21,13 @@ from engine.studio.workshop import workshop_records as wr
 from engine.studio.workshop.language_words import language_words
 from engine.studio.workshop.workshop_pictures import as_relief, as_seen, brightness, histogram_of, in_pieces
 from engine.texture.expression.defined import check_felt, check_woven
-from engine.texture.expression.examined import line_look, shimmer, values_at
+from engine.texture.expression.examined import costs_about, line_look, shimmer, values_at
 from engine.texture.expression.language import read
 from engine.texture.expression.written import FELT, Adjustable, WrittenError, WrittenText
 from engine.texture.expression.written_ink import Expression, Named
 
 _FIRST, _LEAST = 128, 32  # pixels of a picture that is shown before it is whole, at most; at least of a dear one,
-_SOON = 4e7  # nanoseconds that it takes, about, as the text before told
+_SOON = 4e7  # nanoseconds that it takes, about
 _LOOKED = (96, 96)  # pixels over which the least and the greatest value of a line are sought
 _SHIMMERS = 64  # pixels square that are compared with the next finer level
 
@@ -100,7 +100,7 @@ class Workshop(Owned):
             raise
         before, self._known = self._known, known
         yield from self._ready()
-        yield from self._picture(known, _cost_before(before, known.number))
+        yield from self._picture(known)
         if before is None or not _alike(before, asked):
             yield from self._lines(known)
             yield from self._levels(known)
@@ -136,20 +136,18 @@ class Workshop(Owned):
     def _send(self, name: str, pixels: np.ndarray) -> None:
         self._easel.send(results.Picture(f"workshop {name}", results.frozen(np.ascontiguousarray(pixels))))
 
-    def _picture(self, known: _Known, expected: float) -> Iterator[None]:
-        """Shows what is looked at; a large picture, or a dear one, first from a coarser level.  `expected`: nanoseconds
-        a pixel."""
+    def _picture(self, known: _Known) -> Iterator[None]:
+        """Shows what is looked at; a large picture, or a dear one, first by one sample of each pixel, if need be of a
+        coarser level."""
         asked, number = known.asked, known.number
         whole = Rect.at(*asked.origin, *asked.size)
-        coarser = 0
-        while _is_much(whole.zoomed(-coarser), expected):
-            coarser += 1
-        for level in sorted({coarser, min(coarser // 2, 1), 0}, reverse=True):
+        for level, few in _looks(whole, *costs_about(known.made, number, asked.level)):
             rect = whole.zoomed(-level)
             rim = int(asked.lit)
             rimmed = Rect(rect.x0 - rim, rect.y0 - rim, rect.x1 + rim, rect.y1 + rim)
-            cost = line_look(known.made, number, asked.level - level).cost
-            for planes in in_pieces(known.made, number, asked.level - level, rimmed, cost):
+            about = known.made, number, asked.level - level
+            cost = costs_about(*about)[0] if few else line_look(*about).cost
+            for planes in in_pieces(*about, rimmed, cost, few):
                 if planes is None:
                     yield
                     continue
@@ -232,10 +230,15 @@ def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
     return _Known(asked, made, scene)
 
 
-def _cost_before(before: _Known | None, number: int) -> float:
-    """Returns what a line of the text before took, nanoseconds a pixel: what the same one of the next takes, about."""
-    lines = before.scene.lines if before is not None else ()
-    return lines[min(number, len(lines) - 1)].cost if lines else 0.0
+def _looks(whole: Rect, one: float, most: float) -> list[tuple[int, bool]]:
+    """Returns at how many levels coarser a picture is drawn, one after the other, and whether by one sample a pixel;
+    that takes `one` nanoseconds, and at most it takes `most`, about."""
+    coarser = 0
+    while _is_much(whole.zoomed(-coarser), one):
+        coarser += 1
+    soon = not coarser and not _is_much(whole, most)
+    looks = [(level, False) for level in sorted({min(coarser // 2, 1), 0}, reverse=True)]
+    return looks if soon else [(coarser, True), *looks]
 
 
 def _is_much(rect: Rect, cost: float) -> bool:

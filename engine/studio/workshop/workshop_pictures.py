@@ -28,7 +28,9 @@ class Counted(NamedTuple):
     most: float
 
 
-def in_pieces(made: Expression, line: int, level: int, rect: Rect, cost: float) -> Iterator[np.ndarray | None]:
+def in_pieces(
+    made: Expression, line: int, level: int, rect: Rect, cost: float, few: bool = False
+) -> Iterator[np.ndarray | None]:
     """Yields None after each piece of work, then what a line is over a rectangle, as `line_planes`; `cost`:
     nanoseconds a pixel."""
     rows = max(1, min(rect.height, int(_PIECE / max(cost * rect.width, 1.0))))
@@ -36,7 +38,7 @@ def in_pieces(made: Expression, line: int, level: int, rect: Rect, cost: float) 
     for y in range(rect.y0, rect.y1, rows):
         if pieces:
             yield None
-        pieces.append(line_planes(made, line, level, Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1))))
+        pieces.append(line_planes(made, line, level, Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1)), few))
     yield np.concatenate(pieces, axis=1)
 
 

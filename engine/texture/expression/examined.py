@@ -13,8 +13,9 @@ from engine.numeric.address import Rect
 from engine.texture.expression.language import read
 from engine.texture.expression.placing.placed_scene import drawn_plainly
 from engine.texture.expression.programs import Program
+from engine.texture.expression.sampling.errors import JUMP_SIDE, POINT_SIDE
 from engine.texture.expression.written import samples_told
-from engine.texture.expression.written_ink import Expression, pixels, woven_program
+from engine.texture.expression.written_ink import About, Expression, one_sample, pixels, woven_line, woven_program
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,10 +58,22 @@ def line_look(made: Expression, number: int, level: int) -> LineLook:
     return LineLook(line.name, written.place(line.at)[0], found.channels == 4, samples, found.cost)
 
 
-def line_planes(made: Expression, number: int, level: int, rect: Rect) -> np.ndarray:
+def line_planes(made: Expression, number: int, level: int, rect: Rect, few: bool = False) -> np.ndarray:
     """Returns what a line, counted from 0, is over a rectangle of a level: its numbers as they are within -1..2,
-    float32 (1, h, w), or premultiplied colours (4, h, w)."""
-    return drawn_plainly(_line(made, number, level), rect, pixels(made.period, level - made.level))
+    float32 (1, h, w), or premultiplied colours (4, h, w); `few`: as one sample of each pixel tells."""
+    shown = one_sample(_about(made, number, level)) if few else _line(made, number, level)
+    return drawn_plainly(shown, rect, pixels(made.period, level - made.level))
+
+
+def costs_about(made: Expression, number: int, level: int) -> tuple[float, float]:
+    """Returns nanoseconds that a pixel of a line takes, before any is drawn: by one sample, and at most, about."""
+    woven = woven_line(*_about(made, number, level))
+    samples = 1 + POINT_SIDE**2 + JUMP_SIDE**2 if woven.rough or woven.jumps else 1
+    return woven.cost, woven.cost * samples
+
+
+def _about(made: Expression, number: int, level: int) -> About:
+    return made.text, made.values, made.named, made.seed, level - made.level, made.period, number
 
 
 def values_at(made: Expression, level: int, place: tuple[int, int]) -> tuple[tuple[float, ...], ...]:

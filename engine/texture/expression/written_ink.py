@@ -45,7 +45,7 @@ _WOVEN = 4  # of up to three megabytes: of one line, for the samples that are tr
 
 Values = tuple[tuple[str, float | str], ...]
 Named = tuple[tuple[str, Instance], ...]
-_About = tuple[str, Values, Named, int, int, float, int]
+About = tuple[str, Values, Named, int, int, float, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,7 +201,8 @@ def woven_line(
 ) -> Woven:  # fmt: skip
     """Returns what a line of a text is, so many levels finer than where its period is told, for one of so many samples
     along a pixel."""
-    return _woven(text, values, named, seed, finer, period, line, side)
+    last = line == len(read(text).lines) - 1
+    return _woven(text, values, named, seed, finer, period, -1 if last else line, side)
 
 
 @lru_cache(_WOVEN)
@@ -230,11 +231,16 @@ def woven_program(
     return replace(found, fit=fit_to_near(far, near))
 
 
+def one_sample(about: About) -> Program:
+    """Returns the program of a line with one sample of each pixel, which is woven at once."""
+    return _sampled(*about, 1)
+
+
 def _at_pixels(made: Program, many: Fraction, columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
     return draw_pixels(made, columns, rows, many)
 
 
-def _from_afar(found: Program, about: _About, many: Fraction) -> Program:
+def _from_afar(found: Program, about: About, many: Fraction) -> Program:
     """Returns the program with more samples where each pixel holds so much that some of its own have sixteen, if that
     is not too dear; where it does not hold much, if sixteen are not sure."""
     most = found.side if found.finer is None else found.most
@@ -249,17 +255,17 @@ def _from_afar(found: Program, about: _About, many: Fraction) -> Program:
     return found if side == JUMP_SIDE else _sampled(*about, side)
 
 
-def _unsure(about: _About, many: Fraction, sides: tuple[int, int]) -> bool:
+def _unsure(about: About, many: Fraction, sides: tuple[int, int]) -> bool:
     return _told_unsure((about[0], one_way(about[1]), *about[2:]), many, sides)
 
 
 @lru_cache(_MEMO)
-def _told_unsure(about: _About, many: Fraction, sides: tuple[int, int]) -> bool:
+def _told_unsure(about: About, many: Fraction, sides: tuple[int, int]) -> bool:
     some, more = (_sampled(*about, side) for side in sides)
     return is_unsure(some, more, many)
 
 
-def _enough(woven: Woven, about: _About, many: Fraction) -> Program:
+def _enough(woven: Woven, about: About, many: Fraction) -> Program:
     """Returns the program with as many samples as are enough."""
     made = partial(_sampled, *about)
     if woven.whole is not None:
@@ -279,13 +285,13 @@ def _enough(woven: Woven, about: _About, many: Fraction) -> Program:
 
 
 @lru_cache(_WOVEN)
-def _comparing(about: _About) -> Program:
+def _comparing(about: About) -> Program:
     """Returns the program for one sample of each pixel, with its error, and more where four are far from that."""
     return program(woven_line(*about), 1, partial(_sampled, *about), True)
 
 
 @lru_cache(_MEMO)
-def _measured(about: _About, many: Fraction) -> int:
+def _measured(about: About, many: Fraction) -> int:
     made = partial(_sampled, *about)
     return measured_side(_comparing(about) if woven_line(*about).jumps else made(1), made, many)
 
@@ -300,13 +306,9 @@ def _from_near(text: str, values: Values, seed: int, period: float, line: int) -
 
 def _from_nearer(text: str, values: Values, seed: int, finer: int, period: float, line: int) -> np.ndarray:
     """Returns what the pixels of a line hold by the next finer level, at some places."""
-    made, many = _nearer(text, values, seed, finer + 1, period, line), pixels(period, finer)
+    about, many = (text, values, (), seed, finer + 1, period), pixels(period, finer)
+    made = _program(*about) if line == -1 else woven_program(*about, line)
     return shown_within(partial(_at_pixels, made, 2 * many), many)
-
-
-@lru_cache(16)
-def _nearer(text: str, values: Values, seed: int, finer: int, period: float, line: int) -> Program:
-    return woven_program(text, values, (), seed, finer, period, line)
 
 
 @lru_cache(_MEMO)
