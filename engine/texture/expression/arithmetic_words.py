@@ -51,7 +51,10 @@ def _subtract(weaver: Weaver, a: int, b: int) -> _Pair:
 
 
 def _multiply(weaver: Weaver, a: int, b: int) -> _Pair:
-    """The mean of a product is that of both where one is the same everywhere, or both change evenly."""
+    """The mean of a product is that of both where one is the same everywhere, or both change evenly; what covers a part
+    of a sample covers as much when it is squared."""
+    if a == b and a in weaver.shares and weaver.graph.value(a) is None:
+        return a, NO_ERROR
     fixed = weaver.graph.value(a) is not None or weaver.graph.value(b) is not None
     error = 0.0 if fixed else weaver.spreads.of(a).within * weaver.spreads.of(b).within
     node = weaver.graph.mul(a, b)
@@ -340,6 +343,8 @@ def _power(weaver: Weaver, term: Term, env: Env) -> Value:
     base, exponent = (weaver.number(part, env.point) for part in term.parts)
     graph, told = weaver.graph, weaver.graph.value(exponent.nodes[0])
     node = base.nodes[0]
+    if node in weaver.shares and graph.value(node) is None and told is not None and told > 0.0:
+        return Value((node,), weaver.errors.worst(base.error, exponent.error))
     own = weaver.spreads.of(node).within_squared + weaver.spreads.of(exponent.nodes[0]).within
     error = weaver.errors.worst(base.error, exponent.error, weaver.errors.flat(own) if env.mean else NO_ERROR)
     if told is None or told not in (0.0, 1.0, 2.0, 3.0, 4.0) or graph.value(node) is not None:

@@ -103,9 +103,9 @@ def _outline(weaver: Weaver, term: Term, env: Env) -> Value:
     graph, half = weaver.graph, weaver.graph.times(thick, 0.5)
     ends, own = (graph.sub(far, half), graph.add(far, half)), _corners(weaver, far)
     inner, outer = (weaver.covered(end) for end in ends)
-    return Value(
-        (graph.sub(outer, inner),), weaver.errors.worst(*(weaver.errors.at_edge(end, own, error) for end in ends))
-    )
+    made = graph.sub(outer, inner)
+    weaver.shares.add(made)
+    return Value((made,), weaver.errors.worst(*(weaver.errors.at_edge(end, own, error) for end in ends)))
 
 
 def _glow(weaver: Weaver, term: Term, env: Env) -> Value:

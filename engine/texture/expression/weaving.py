@@ -169,6 +169,7 @@ class Weaver:
         self._known: dict[tuple[int, Env], Value] = {}
         self.texts: dict[tuple[NamedText | str, Env], Value] = {}  # others that were asked for, and where
         self.errors = Errors(self.graph, self.width)
+        self.shares = set[int]()  # nodes that tell how much of a sample something covers: 0 or 1 at each of its points
         self.deep, self.asked = 0, AskedSoFar()
         zero = self.graph.constant(0.0)
         self.here = Env(self.graph.x, self.graph.y, (zero, zero) if scene is None else scene.cell(self.graph))
@@ -260,10 +261,13 @@ class Weaver:
         graph, lost = self.graph, self.spreads.of(node).lost
         wide = graph.most(self.width(node), graph.constant(_NARROW))
         if lost == 0.0:
-            return graph.within(graph.plus(graph.div(node, wide), 0.5))
+            part = graph.within(graph.plus(graph.div(node, wide), 0.5))
+            self.shares.add(part)
+            return part
         part = graph.within(graph.plus(graph.times(graph.div(node, wide), _BELL), 0.5))
         made = graph.mul(graph.mul(part, part), graph.plus(graph.times(part, -2.0), 3.0))
         self.spreads.told[made] = part_of_one(self.spreads.of(made))
+        self.shares.add(made)
         return made
 
     def ramped(self, node: int) -> int:
@@ -303,7 +307,7 @@ def woven_within(weaver: Weaver, written: WrittenText, told: NamedText | None = 
     other = Weaver(written, about, weaver.rules)
     other.graph, other.slopes, other.spreads = weaver.graph, weaver.slopes, weaver.spreads
     other.here, other.deep, other.scene = weaver.here, weaver.deep, weaver.scene
-    other.errors, other.texts, other.asked = weaver.errors, weaver.texts, weaver.asked
+    other.errors, other.texts, other.asked, other.shares = weaver.errors, weaver.texts, weaver.asked, weaver.shares
     return other
 
 
