@@ -61,6 +61,7 @@ class Program:
         self._rests, self._kept, self._at, self._took, self._typed = False, False, "", [0, 0], ""  # what it told last
         self._sent, self._goal = [0, 0], ""  # keys and presses that it is to take, and where the pointer is to be
         self._down: set[str] = set()  # buttons of the mouse
+        self._again = 0.0  # when the pointer is moved again, if it is not there
         self._clicked: tuple[Point, float] = (0, 0), -APART
         if not first:
             welcome(folder / "config")
@@ -101,6 +102,7 @@ class Program:
     def at_rest(self) -> bool:
         """Whether the program told last that it is at rest, and has taken all that was done."""
         self._hear()
+        self._move_again()
         return self._rests and self._has_taken()
 
     def until_kept(self) -> None:
@@ -108,17 +110,21 @@ class Program:
         self.wait_until(lambda: self.at_rest() and self._kept, "it is not on disk")
 
     def taken(self) -> None:
-        """Waits until the program has taken what was pressed and let go, and the pointer, if it lives that long.  The
-        pointer is moved again while no button is down: the program hears of none before its window is there."""
-        end, again = time.monotonic() + PATIENCE, time.monotonic() + 1.0
+        """Waits until the program has taken what was pressed and let go, and the pointer, if it lives that long."""
+        end = time.monotonic() + PATIENCE
         while self.waits and not self._has_taken() and self.process.poll() is None:
-            now, told = time.monotonic(), f"at {self._at}, taken {self._took}"
-            assert now < end, f"at {self._goal}, sent {self._sent}; {told}: {self.log.read_text()[-2000:]}"
-            if now > again and self._goal not in ("", self._at) and not self._down:
-                again, at = now + 1.0, self._goal.split(",")
-                self.do("mousemove", int(at[0]) - 1, at[1], "mousemove", *at)
+            told = f"at {self._at}, taken {self._took}"
+            assert time.monotonic() < end, f"at {self._goal}, sent {self._sent}; {told}: {self.log.read_text()[-2000:]}"
+            self._move_again()
             time.sleep(LOOK)
             self._hear()
+
+    def _move_again(self) -> None:
+        """Moves the pointer where it is to be once a second while it is elsewhere and no button is down: the program
+        hears of no move before its window is there, and another client of the display may have moved it since."""
+        if self._goal not in ("", self._at) and not self._down and time.monotonic() > self._again:
+            x, y = self._goal.split(",")
+            self.do("mousemove", int(x) - 1, y, "mousemove", x, y)
 
     def _has_taken(self) -> bool:
         there = self._goal in ("", self._at)
@@ -202,6 +208,7 @@ class Program:
             elif word in PRESSES and not what.startswith("--"):
                 self._send(word, what)
         subprocess.run(["xdotool", *told], check=True, env={**os.environ, "DISPLAY": self.display}, timeout=PATIENCE)
+        self._again = time.monotonic() + 1.0
         if self._sent != before:
             self.taken()
 

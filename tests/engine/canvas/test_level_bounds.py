@@ -49,7 +49,9 @@ def told(states):
     """What is found by levels, plainly comparable."""
     ends = [(state.coarsest, state.waits and state.waits.change.depth, state.settled) for state in states]
     held = [(key, record.rect, record.data.tobytes()) for key, record in fold(states[-1]).all_records()]
-    apart = [sorted(key for key, _, _ in differing._apart(one, other)) for one, other in itertools.pairwise(states)]
+    apart = [
+        sorted(key for key, _, _ in differing.placed_apart(one, other)) for one, other in itertools.pairwise(states)
+    ]
     return ends, held, apart
 
 
@@ -73,7 +75,7 @@ def test_states_differ_at_no_other_levels_than_are_looked_at():
         folded = differing._folded_between(one, other)
         assert changes
         assert levels <= set(differing._levels_apart(one, other, folded))
-        found = {key for key, _, _ in differing._apart(one, other)}
+        found = {key for key, _, _ in differing.placed_apart(one, other)}
         for k in levels:
             here, there = (state.levels.get(k, {}) for state in (one, other))
             wanted = {place for place in {*here, *there} if here.get(place) is not there.get(place)}
