@@ -92,10 +92,12 @@ def windows_of(
     cells: int = CELLS,
     sharp: bool = False,
     cancelled: Callable[[], bool] | None = None,
+    room: int = 0,
 ) -> Windows:
     """Returns the windows that a camera sees whose finest is of a level; `wet`: all below height 0 is water;
-    `sharp`: with more of them near the eye, and no more than nineteen in all down to level 32.  `cancelled` is asked
-    every some milliseconds: Cancelled if it says so."""
+    `sharp`: with more of them near the eye, and no more than nineteen in all down to level 32; `room`: their arrays are
+    parts of ones that have room for so many windows more.  `cancelled` is asked every some milliseconds: Cancelled if
+    it says so."""
     foot = _pixel_of(camera, finest)
     about = foot.above(finest - DEEP) if finest > DEEP else None
     ground = float(land.height(finest, foot.rect, about)[0, 0])
@@ -103,10 +105,10 @@ def windows_of(
     base = max(ground, 0.0) if wet else ground
     levels = _levels(land, camera, finest, cells, sharp)
     side = cells + 1
-    heights = np.empty((len(levels), side, side), np.float32)
-    colours = np.empty((len(levels), side, side, 3), np.uint8)
-    mips = mipmap_of(cells)
-    tops = np.empty((len(levels), int((mips[1] * mips[1]).sum())), np.float32)
+    count, mips = len(levels), mipmap_of(cells)
+    heights = np.empty((count + room, side, side), np.float32)[:count]
+    colours = np.empty((count + room, side, side, 3), np.uint8)[:count]
+    tops = np.empty((count + room, int((mips[1] * mips[1]).sum())), np.float32)[:count]
     before = np.empty(0, np.float32)  # the colours of the window before, linear
     places: list[tuple[float, float, float]] = []
     for w, level in enumerate(levels):

@@ -51,20 +51,22 @@ class _Sum:
 
 
 def roomy(windows: Windows) -> Windows:
-    """Returns windows with room for those of a part behind them."""
+    """Returns windows with room for those of a part behind them: the same arrays where these have that `room`."""
     count = len(windows.levels)
 
-    def copied(array: np.ndarray) -> np.ndarray:
+    def whole(array: np.ndarray) -> np.ndarray:
+        if isinstance(array.base, np.ndarray) and len(array.base) == count + PART_WINDOWS:
+            return array.base
         made = np.empty((count + PART_WINDOWS, *array.shape[1:]), array.dtype)
         made[:count] = array
         return made
 
     return replace(
         windows,
-        heights=copied(windows.heights),
-        tops=copied(windows.tops),
-        colours=copied(windows.colours),
-        places=copied(windows.places),
+        heights=whole(windows.heights),
+        tops=whole(windows.tops),
+        colours=whole(windows.colours),
+        places=whole(windows.places),
     )
 
 

@@ -26,6 +26,7 @@ from engine.terrain.finer_land import FinerPicture, roomy
 from engine.terrain.land_picture import Shot, refinement
 from engine.terrain.picture_error import picture_error
 from engine.terrain.plane import land
+from engine.terrain.seen_parts import PART_WINDOWS
 
 _SAMPLES = 16
 _FINE = 0.3  # pixels by which land may lie elsewhere, as a rule, in the last picture
@@ -78,7 +79,8 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
     def shown(by: int, cells: int) -> tuple[Shot, Windows]:
         size = -(-request.size[0] // by), -(-request.size[1] // by)
         shot = Shot(camera, size, _SAMPLES, wet=wet)
-        return shot, windows_of(seen, camera, cover, camera.finest(size), wet, cells, by == 1, gone)
+        room = PART_WINDOWS if by == 1 else 0
+        return shot, windows_of(seen, camera, cover, camera.finest(size), wet, cells, by == 1, gone, room)
 
     shot, windows = shown(_COARSER_FIRST, CELLS // _COARSER_FIRST)
     first = next(iter(refinement(windows, replace(shot, samples=1), wide, gone, quarter=False)))
@@ -92,6 +94,7 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
         send(StillCome(request.number, frozen(stage.picture), stage.by, last, error))
     if found is not None and not last:
         give_way()
+        give_back()
         windows = roomy(windows)
         picture, found = FinerPicture(seen, windows, shot, wide, gone).over(stage.picture, found)
         error = None if found is None else (found.rms, found.hard)

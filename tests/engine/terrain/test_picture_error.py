@@ -19,6 +19,7 @@ from engine.terrain.height_window import in_pixels
 from engine.terrain.land_picture import Shot
 from engine.terrain.picture_error import picture_error
 from engine.terrain.plane import land
+from engine.terrain.seen_parts import PART_WINDOWS
 
 SIZE, CELLS, DEEPER = (160, 100), 128, 3
 INK = {"texture": "rock", "amount": 1, "period": 60, "roughness": 0.86, "renew": False, "colour": "#ffffff"}
@@ -132,6 +133,19 @@ def finer(seen, cancelled=None):
     usual = picture_error(seen, made, camera, SMALL)
     flat = np.zeros((SMALL[1], SMALL[0], 3), np.uint8)
     return made, usual, *FinerPicture(seen, made, Shot(camera, SMALL, 1), 256, cancelled).over(flat, usual)
+
+
+def test_room_for_finer_windows_is_had_with_the_others(seen):
+    camera = Camera(0, Fraction(128), Fraction(128), 12.0, 0.0, -24.0, 55.0)
+    few, made = (
+        windows_of(seen, camera, cover_of(seen, False), camera.finest(SMALL), cells=16, sharp=True, room=room)
+        for room in (0, PART_WINDOWS)
+    )
+    for name in ("heights", "tops", "colours"):
+        whole, before = getattr(roomy(made), name), getattr(made, name)
+        assert np.shares_memory(whole, before)
+        assert len(whole) == len(getattr(roomy(few), name)) == len(before) + PART_WINDOWS
+        assert np.array_equal(before, getattr(few, name))
 
 
 def test_the_last_picture_shows_finer_land_with_the_same_bits_for_any_number_of_threads(seen, monkeypatch):
