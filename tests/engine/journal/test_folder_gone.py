@@ -110,20 +110,28 @@ def removed(folder):
 
 
 def whole(worker, folder):
-    """Waits until all that was painted is on disk, in a folder that is there, and the one before is gone."""
+    """Waits until all that was painted is on disk where no power cut takes it, in the one folder that there is: what is
+    begun anew has one beside it, that was written again at once and goes as soon as the other is on disk."""
     journal = worker._posts.journal
-    until(lambda: idle(worker) is not None and [worker.entry] == list(folder.glob("*")))  # it is made, not yet written
-    until(lambda: idle(worker) is not None and journal.settled and not journal.entry.lost)
-    until(lambda: not journal.entry._recent)  # no power cut takes any of it
+
+    def is_whole():
+        idle(worker)
+        entry = journal.entry  # one for all looks: another one may take its place meanwhile
+        return journal.settled and not entry.lost and not entry._recent and [entry.folder] == list(folder.glob("*"))
+
+    until(is_whole)
 
 
 def then(worker, tmp_path):
     """What a `kill -9` would leave now: the one entry, recovered."""
     found = []
 
-    def one():  # while it begins anew there are two
+    def one():
         left_over = tmp_path / f"then-{time.monotonic_ns()}"
-        shutil.copytree(tmp_path / "p", left_over)
+        try:
+            shutil.copytree(tmp_path / "p", left_over)
+        except OSError:
+            return False  # a file or a folder came or went while it was copied: no moment was ever like that
         found[:] = entries.listed(left_over)
         return len(found) == 1
 
