@@ -15,7 +15,7 @@ import numpy as np
 from engine.numeric.address import Rect
 from engine.numeric.detail import add_expanded, cut, parents, subtract_expanded
 from engine.numeric.grid import FINE_STEP, snapped
-from engine.numeric.kernel import Array, inlined, inner, kernel
+from engine.numeric.kernel import Array, dividing, forced, inner, kernel
 from engine.numeric.pyramid import expand_into
 from engine.texture.learnt.kinds import LOOKED_ROUND
 from engine.texture.learnt.maps import Maps, maps_of
@@ -26,7 +26,6 @@ _NEAR = 3  # pixels from which colours go on beyond the outline
 _ENOUGH, _FAINT = np.float32(0.5), np.float32(1.0 / 64.0)
 _LEAST = np.float32(1e-9)
 _ONE, _ZERO, _QUARTER = np.float32(1.0), np.float32(0.0), np.float32(0.25)
-Four = tuple[np.float32, np.float32, np.float32, np.float32]
 
 
 def has_alpha(learning: Learning) -> bool:
@@ -91,66 +90,58 @@ def _outline(alpha: np.ndarray, at: Rect, octave: int, rect: Rect) -> np.ndarray
     return found
 
 
-@kernel
+@dividing
 def _centre(coarse: Array, out: Array) -> None:
     """Gives each four pixels of `out` (C, 2h, 2w) the mean of the one above them, in `coarse` (C, h + 2, w + 2), and
     makes them as much less different from it as lets them stay within 0..1, colours below alpha, the last of four;
     where alpha changes by that, so do they."""
     channels, height, width = coarse.shape
-    most, before = np.ones(4, np.float32), np.ones(4, np.float32)
+    whole, most = np.ones((2, 2 * width - 4), np.float32), np.ones((2, 2 * width - 4), np.float32)
+    before = whole
     for y in range(height - 2):
-        for x in range(width - 2):
-            most[:] = _ONE
-            same, alpha = True, coarse[channels - 1, y + 1, x + 1]
-            for n in range(channels):
-                c = channels - 1 - n
-                a, b = out[c, 2 * y, 2 * x], out[c, 2 * y, 2 * x + 1]
-                d, e = out[c, 2 * y + 1, 2 * x], out[c, 2 * y + 1, 2 * x + 1]
-                if channels == 4 and c == 3:
-                    before[0], before[1], before[2], before[3] = a, b, d, e
-                elif not same:
-                    a, b = a * _times(most, before, 0), b * _times(most, before, 1)
-                    d, e = d * _times(most, before, 2), e * _times(most, before, 3)
-                a, b, d, e = _centred((a, b, d, e), coarse[c, y + 1, x + 1], most, alpha)
-                out[c, 2 * y, 2 * x], out[c, 2 * y, 2 * x + 1] = a, b
-                out[c, 2 * y + 1, 2 * x], out[c, 2 * y + 1, 2 * x + 1] = d, e
-                if channels == 4 and c == 3:
-                    most[0], most[1], most[2], most[3] = a, b, d, e
-                    same = bool(a == before[0] and b == before[1] and d == before[2] and e == before[3])
-                    same = same and bool(min(min(a, b), min(d, e)) >= _FAINT)
+        last = coarse[channels - 1, y + 1]
+        if channels == 4:
+            before = out[3, 2 * y : 2 * y + 2].copy()
+            _centre_row(last, last, whole, whole, out[3, 2 * y], out[3, 2 * y + 1])
+            most[0], most[1] = out[3, 2 * y], out[3, 2 * y + 1]
+        for c in range(min(channels, 3)):
+            _centre_row(coarse[c, y + 1], last, before, most, out[c, 2 * y], out[c, 2 * y + 1])
 
 
-@inlined
-def _times(most: Array, before: Array, k: int) -> np.float32:
-    found: np.float32 = most[k] / max(before[k], _FAINT)
-    return found
+@forced
+def _centre_row(means: Array, last: Array, before: Array, most: Array, upper: Array, lower: Array) -> None:
+    """Does so in two rows of one channel, which is at most `most`, and that was `before`; `last`: means of the last
+    channel.  Nothing branches, so that many pixels are reckoned at once."""
+    (m0, m1), (b0, b1) = (most[0], most[1]), (before[0], before[1])
+    for x in range(means.size - 2):
+        p, q, r, s = m0[2 * x], m0[2 * x + 1], m1[2 * x], m1[2 * x + 1]
+        i, j, k, m = b0[2 * x], b0[2 * x + 1], b1[2 * x], b1[2 * x + 1]
+        a, b, d, e = upper[2 * x], upper[2 * x + 1], lower[2 * x], lower[2 * x + 1]
+        least = min(min(p, q), min(r, s))
+        same = (p == i) & (q == j) & (r == k) & (s == m) & (least >= _FAINT)
+        a, b = (a if same else a * (p / max(i, _FAINT))), (b if same else b * (q / max(j, _FAINT)))
+        d, e = (d if same else d * (r / max(k, _FAINT))), (e if same else e * (s / max(m, _FAINT)))
+        mean, base = means[x + 1], max(last[x + 1], _LEAST)
+        apart = ((a + b) + (d + e)) * _QUARTER
+        a, b, d, e = a - apart, b - apart, d - apart, e - apart
+        part = min(min(_part(a, mean, p), _part(b, mean, q)), min(_part(d, mean, r), _part(e, mean, s)))
+        beyond = mean > least  # there is less alpha: as much colour as alpha
+        upper[2 * x] = _within(beyond, mean, base, part * a, p)
+        upper[2 * x + 1] = _within(beyond, mean, base, part * b, q)
+        lower[2 * x] = _within(beyond, mean, base, part * d, r)
+        lower[2 * x + 1] = _within(beyond, mean, base, part * e, s)
 
 
-@inlined
-def _centred(four: Four, mean: np.float32, most: Array, alpha: np.float32) -> Four:
-    apart = ((four[0] + four[1]) + (four[2] + four[3])) * _QUARTER
-    a, b, d, e = four[0] - apart, four[1] - apart, four[2] - apart, four[3] - apart
-    if mean > min(min(most[0], most[1]), min(most[2], most[3])):  # there is less alpha: as much colour as alpha
-        base = max(alpha, _LEAST)
-        a, b = min(mean * (most[0] / base), most[0]), min(mean * (most[1] / base), most[1])
-        d, e = min(mean * (most[2] / base), most[2]), min(mean * (most[3] / base), most[3])
-    else:
-        part = min(
-            min(_part(a, mean, most[0]), _part(b, mean, most[1])), min(_part(d, mean, most[2]), _part(e, mean, most[3]))
-        )
-        a, b = min(max(mean + part * a, _ZERO), most[0]), min(max(mean + part * b, _ZERO), most[1])
-        d, e = min(max(mean + part * d, _ZERO), most[2]), min(max(mean + part * e, _ZERO), most[3])
-    return a, b, d, e
+@forced
+def _within(beyond: bool, mean: np.float32, base: np.float32, apart: np.float32, most: np.float32) -> np.float32:
+    return min(mean * (most / base), most) if beyond else min(max(mean + apart, _ZERO), most)
 
 
-@inner
+@forced
 def _part(apart: np.float32, mean: np.float32, most: np.float32) -> np.float32:
     """How much of a difference from a mean stays within 0 and the most."""
-    if apart > most - mean:
-        return (most - mean) / apart
-    if -apart > mean:
-        return mean / -apart
-    return _ONE
+    over, under = (most - mean) / apart, mean / -apart
+    return over if apart > most - mean else under if -apart > mean else _ONE
 
 
 @kernel
