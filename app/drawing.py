@@ -25,7 +25,8 @@ assert imgui_bundle
 
 class Drawing:
     """All calls from the thread that owns the window's context.  `drawn`: whether the last frame was drawn; `changed`:
-    whether anything but the rim of what is selected was another in it, which never rests."""
+    whether anything but the rim of what is selected was another in it, which never rests; `lacks`: how many tiles were
+    not there for it, where the view is that of the frame before."""
 
     def __init__(self, window: Any, screen: Screen, overlay: Overlay, land: LandScreen) -> None:
         self._window, self._screen, self._overlay, self._land = window, screen, overlay, land
@@ -38,6 +39,7 @@ class Drawing:
         self._table: ScreenTable | None = None  # by which the window is shown
         self._carried: SheetPlan | None = None
         self.drawn = self.changed = False
+        self.lacks = 0
 
     def begin(self, desk: Desk, now: float) -> None:
         """Has the card begin with the land, which it fills beside what the panels are laid out in."""
@@ -57,6 +59,7 @@ class Drawing:
         rim = None if desk.selecting.masking else desk.selecting.ants
         by = rim_similarity(desk)
         ants = self._line.plan(rim, now, by)
+        self.lacks = plan.lacks if self._plan is not None and self._plan.view == plan.view else 0
         self.changed = told or plan != self._plan or sheets != self._carried or exposed
         self.drawn = self.changed or ants != self._ants
         if self.drawn:
@@ -89,7 +92,7 @@ class Drawing:
             self._overlay.redraw(data)
         changed = self._land.draw(desk, now)
         self.drawn = self.changed = changed or told or exposed or not self._flown
-        self._flown = True
+        self._flown, self.lacks = True, 0
         if self.drawn:
             self._land.show(desk)
             self._overlay.draw(data)

@@ -19,6 +19,7 @@ PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell
 STILL = 1 / 60  # and at most, where frames go on without an event: the engine wants the processor, too
 CALM = 1 / 20  # where nothing came of the last frame, either
 SOON = 0.1  # seconds after an event during which something may come even so
+SPARING = 1 / 30  # where it makes what the screen lacks, the view stays, and the processor fills the pixels, too
 AT_HAND = 0.25  # seconds after an event during which each frame counts
 STEP = 0.003  # seconds that a piece of the engine's work takes, at most, nearly always
 LEAST = 0.001  # seconds of a turn in which such pieces are begun, after frames that take nearly all of the time
@@ -54,7 +55,9 @@ class Pace:
         self._drawn = False
         self._resting = False  # until something happens
         self._growing = False
-        self._by_turns = False
+        self._by_turns = self._spares = False
+        self._came = self._taken = 0  # times that the engine had news, by now and as the last frame began
+        self._awaited = 0  # with which time all may be there that the screen lacks
 
     def event(self) -> None:
         """Something came from the artist or the window system."""
@@ -69,21 +72,26 @@ class Pace:
         self._calm_from = max(self._calm_from, now + 0.05)
 
     def told(self) -> None:
-        """The engine has news; called from its thread.  Where frames go on anyway, the next one takes them in."""
-        if self._resting:
+        """The engine has news; called from its thread.  Where frames go on anyway, the next one takes them in, unless
+        that is far off and nothing is lacking any more."""
+        self._came += 1
+        if self._resting or self._came == self._awaited:
             glfw.post_empty_event()
 
     def begin(self, now: float) -> float:
         """A frame begins; seconds since the last one did, 0.1 at most."""
-        seconds, self._last = min(0.1, now - self._last), now
+        seconds, self._last, self._taken = min(0.1, now - self._last), now, self._came
         return seconds
 
-    def end(self, drawn: bool, moving: bool, growing: bool) -> None:
-        """It ends; whether anything was drawn, something moves by itself, and the engine grows examples."""
+    def end(self, drawn: bool, moving: bool, growing: bool, lacks: int = 0) -> None:
+        """It ends; whether anything was drawn, something moves by itself, and the engine grows examples; how much the
+        screen lacks of a view that stays."""
         now = time.monotonic()
         trace_frame(self._last, now)
         self._took, self._drawn, self._growing = now - self._last, drawn, growing
         self._by_turns = self._shared and growing and (moving or now - self._moved < AT_HAND)
+        self._spares = self._shared and lacks > 0 and not self._by_turns
+        self._awaited = self._taken + lacks if self._spares else 0
 
     def wait(self, moving: bool, painting: bool = False, idle: float = IDLE) -> None:
         """Sleeps until an event, at most one frame while something moves or is about to, and `idle` seconds otherwise;
@@ -91,7 +99,8 @@ class Pace:
         now = time.monotonic()
         if moving or self._by_turns or now < self._busy_until:
             calm = not (moving or painting or self._drawn or self._by_turns) and now >= self._calm_from
-            until = self._last + (CALM if calm else PACE if moving and not self._by_turns else self._still(painting))
+            step = SPARING if self._spares and not painting else PACE if moving and not self._by_turns else None
+            until = self._last + (CALM if calm else step or self._still(painting))
             wakes = calm or (painting and not self._by_turns)
             self._doze(until - now) if wakes and until > now else self.rest(until - now)
         else:

@@ -273,7 +273,7 @@ class Window:
                 self._solid.show(desk.solid)
             exposed, self._callbacks.exposed = self._callbacks.exposed, False
             moving = self._drawing.draw(desk, now, self.gallery.fresh(), exposed) or moving
-        self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None)
+        self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None, self._drawing.lacks)
         moves = self.desk.keys.stirred() or moving or _keys_wait()
         self._resting.stirs = came or moves or self._drawing.changed
         return moves

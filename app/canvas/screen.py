@@ -68,6 +68,7 @@ class ScreenPlan:
     whole: list[Row] = field(default_factory=list)
     fading: list[Row] = field(default_factory=list)
     moving: bool = False  # something still fades
+    lacks: int = 0  # tiles that are not there
 
 
 def cells(view: View, level: int, rim: int = 0) -> list[ScreenTile]:
@@ -240,6 +241,7 @@ class Screen:
         for tile in cells(view, view.shown_level, 0 if light is None else 2 * RIM):
             held = self._touch(tile)
             up = next((n for n in range(1, ANCESTORS) if tile.ancestor(n) in self._held), 0)
+            plan.lacks += held is None
             weight = 0.0 if held is None else min(1.0, (now - held.born) / FADE) if up else 1.0
             corner = _corner(view, tile, exact)
             if held is None or not held.opaque or weight < 1.0:

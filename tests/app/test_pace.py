@@ -5,7 +5,7 @@ import time
 import pytest
 
 from app import pace
-from app.pace import STILL, Pace
+from app.pace import PACE, SPARING, STILL, Pace
 
 CARD, SOFTWARE = "Mesa Intel(R) UHD Graphics 620", "llvmpipe (LLVM 15.0.6, 256 bits)"
 
@@ -117,6 +117,27 @@ def test_there_are_no_turns_while_the_hand_rests(events, monkeypatch):
     one.worker.turns.clear()
     one.wait(False)
     assert one.worker.turns == [None]
+
+
+@pytest.mark.parametrize(("renderer", "lacks", "rest"), [(SOFTWARE, 3, SPARING), (SOFTWARE, 0, PACE), (CARD, 3, PACE)])
+def test_frames_are_few_while_the_engine_makes_what_the_screen_lacks(events, clock, renderer, lacks, rest):
+    one = paced(renderer)
+    one.begin(clock.now)
+    one.end(True, True, False, lacks)
+    one.wait(True)
+    assert events.waited == [pytest.approx(rest)]
+
+
+def test_the_last_of_what_the_screen_lacks_wakes_a_frame(events, clock):
+    one = paced(SOFTWARE)
+    one.told()  # taken in by the frame that begins now
+    one.begin(clock.now)
+    one.told()
+    one.end(True, True, False, 3)
+    woken = []
+    events.wait_events_timeout = lambda seconds: [(one.told(), woken.append(events.woken)) for _ in range(3)]
+    one.wait(True)
+    assert woken == [0, 1, 1]
 
 
 def test_what_moves_by_itself_has_turns_too(events, monkeypatch):
