@@ -25,7 +25,7 @@ class Grower(Owned):
     """It belongs to the engine's thread; the threads of its pool are given values alone.
 
     The stroke in progress comes first, then the active layer.  The layer under a stroke in progress stays as it is
-    until the stroke ends; only what the stroke grows is refined.
+    until the stroke ends; only what the stroke grows is refined.  `held`: its kernels are not there, so nothing is.
     """
 
     def __init__(self, easel: Easel) -> None:
@@ -36,11 +36,12 @@ class Grower(Owned):
         self._told: float | None = None  # when the window hears of it again; None: it knows that nothing grows
         self._pool: Executor | None = None
         self._failed: Growth | None = None  # what could not be refined: it would fail again
+        self.held = False
 
     @property
     def pending(self) -> bool:
-        """Tells whether something is left to grow, or to tell."""
-        return self._told is not None or self._open
+        """Tells whether something is left to grow, or to tell, that is not held."""
+        return not self.held and (self._told is not None or self._open)
 
     @property
     def _open(self) -> bool:

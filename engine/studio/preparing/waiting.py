@@ -22,6 +22,7 @@ from engine.studio.preparing.waiting_swatches import WaitingSwatches
 from engine.studio.studio import Studio
 
 POLL = 0.03  # seconds from one look at what has been compiled to the next
+_GROWTH = job_of(q.Swatch("", Brush(mode="example", example="a"), THUMBNAIL))  # what painting with examples needs
 PATIENCE = 3.0  # seconds that a picture waits for kernels which no brush may need, before they are compiled here
 
 
@@ -50,8 +51,8 @@ class Waiting:
             case q.Prepare():
                 self._swatches.expect(request)
             case q.GetReady() if self._preparing.busy:
-                self._examples = job_of(q.Swatch("", Brush(mode="example", example="a"), THUMBNAIL))
-                self._preparing.want((self._examples,), soon=True)
+                self._examples = _GROWTH
+                self._preparing.want((_GROWTH,), soon=True)
             case q.FileGrown() | q.Written() | FileRead() | FileWhole() | CancelOpening() | Tend():
                 self._studio.do(request)
             case _:
@@ -91,8 +92,8 @@ class Waiting:
 
     @property
     def unseen(self) -> bool:
-        """Tells whether pictures wait for kernels."""
-        return self._unseen is not None
+        """Tells whether pictures, or what grows, wait for kernels."""
+        return self._unseen is not None or self._studio.grower.held
 
     @property
     def pending(self) -> int:
@@ -103,7 +104,7 @@ class Waiting:
     def due(self) -> float | None:
         """When to look again at what was compiled, or the studio's recording goes on."""
         due = None if self.waits else self._studio.due
-        if not (self.waits or self._swatches.open or self._unseen or self._examples):
+        if not (self.waits or self._swatches.open or self.unseen or self._examples):
             return due
         soon = self._looked + POLL
         return soon if due is None else min(due, soon)
@@ -119,9 +120,19 @@ class Waiting:
         if self._examples is not None and self._preparing.ready(self._examples):
             self._examples = None
             self._studio.do(q.GetReady())
+        self._hold()
         if not self._line.stalled:
             self._swatches.tell()
             self._line.again()
+
+    def _hold(self) -> None:
+        """What grows waits where a process is asked for its kernels: a painting may be opened that is still to grow."""
+        grower = self._studio.grower
+        if grower.held or (self._preparing.busy and grower.pending):
+            lacks = not self._preparing.ready(_GROWTH)
+            if lacks and not grower.held:
+                self._preparing.want((_GROWTH,), soon=True)
+            grower.held = lacks
 
     @property
     def _seen(self) -> int:

@@ -69,6 +69,7 @@ class Easel:
             SimpleNamespace(pending=0),
         )
         self.pending, self.swatches = 0, []
+        self.grower = SimpleNamespace(held=False, pending=False)
 
     def do(self, request):
         match request:
@@ -334,3 +335,24 @@ def test_a_process_is_asked_for_the_kernels_of_learnt_detail_and_waited_for(monk
         kernels.done.add(SEEN_DETAIL)
         waiting.step()
         assert looked
+
+
+def test_a_process_is_asked_for_the_kernels_of_what_grows_and_waited_for():
+    kernels, easel, waiting, _ = made()
+    waiting.step()
+    assert kernels.jobs == []
+    easel.grower.pending = True
+    for _ in range(2):
+        waiting.step()
+        assert easel.grower.held
+        assert waiting.unseen
+        assert waiting.due is not None  # it looks again
+    ((job, soon),) = kernels.jobs
+    assert soon
+    kernels.done.add(job)
+    waiting.play()
+    assert not easel.grower.held
+    assert not waiting.unseen
+    kernels.busy = False
+    waiting.step()
+    assert not easel.grower.held
