@@ -19,7 +19,14 @@ _STEPS = 0.5  # of a beam's width: the shortest
 
 @inner_uncounted
 def _overlooks(
-    tops: np.ndarray, mips: np.ndarray, places: np.ndarray, box: np.ndarray, cone: float, a: float, b: float
+    heights: np.ndarray,
+    tops: np.ndarray,
+    mips: np.ndarray,
+    places: np.ndarray,
+    box: np.ndarray,
+    cone: float,
+    a: float,
+    b: float,
 ) -> bool:
     """Tells whether all land in a box (x0, y0, x1, y1), seen from a to b, lies below the box's fifth number.  A window
     does not count where a finer one is seen for certain."""
@@ -41,7 +48,12 @@ def _overlooks(
         first, side = mips[0, k], mips[1, k]
         for j in range(j0 >> k, (j1 >> k) + 1):
             for i in range(i0 >> k, (i1 >> k) + 1):
-                if tops[w, first + j * side + i] >= low:
+                if k > 0:
+                    most = tops[w, first + j * side + i]
+                else:
+                    h = heights[w]
+                    most = max(max(h[j, i], h[j, i + 1]), max(h[j + 1, i], h[j + 1, i + 1]))
+                if most >= low:
                     return False
         seen = w == 0 or b * _WIDEST * cone < 0.99999 * CELLS_PER_PIXEL * s
         if seen and x0 > 0.0 and y0 > 0.0 and x1 < 0.99999 * n and y1 < 0.99999 * n:
@@ -51,6 +63,7 @@ def _overlooks(
 
 @inner_uncounted
 def clear_until(
+    heights: np.ndarray,
     tops: np.ndarray,
     mips: np.ndarray,
     places: np.ndarray,
@@ -85,7 +98,7 @@ def clear_until(
                 low, high = min(low, one, other), max(high, one, other)
             box[c], box[2 + c] = low, high
         box[4] = o[2] + min(a * up, b * up)
-        if _overlooks(tops, mips, places, box, cone, a, b * longest):
+        if _overlooks(heights, tops, mips, places, box, cone, a, b * longest):
             a = b
             step *= 2.0
         elif step <= max(1.0, _STEPS * a * width):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
-from engine.terrain.caster import maxima, mipmap_of
+from engine.terrain.caster import maxima, mipmap_of, room_of
 from engine.terrain.drape import Cover
 from engine.terrain.height_window import FINEST_TOLD, in_pixels
 from engine.terrain.layer_heights import Pixel
@@ -108,22 +108,23 @@ def windows_of(
     count, mips = len(levels), mipmap_of(cells)
     heights = np.empty((count + room, side, side), np.float32)[:count]
     colours = np.empty((count + room, side, side, 3), np.uint8)[:count]
-    tops = np.empty((count + room, int((mips[1] * mips[1]).sum())), np.float32)[:count]
+    tops = np.empty((count + room, room_of(mips)), np.float32)[:count]
     before = np.empty(0, np.float32)  # the colours of the window before, linear
     places: list[tuple[float, float, float]] = []
     for w, level in enumerate(levels):
         rect = _rect_of(camera, level, cells)
-        told = _told(land, level, rect, about, cancelled)
-        if wet:
-            told = np.maximum(told, 0.0)
-        h = in_pixels(told - base, level).astype(np.float32)
-        paint = cover.colours(level, rect, h, base).astype(np.float32)
+        h = heights[w]
+        for first, told in _told(land, level, rect, about, cancelled):
+            if wet:
+                told = np.maximum(told, 0.0)
+            h[first : first + len(told)] = in_pixels(told - base, level)
+        paint = cover.colours(level, rect, h, base).astype(np.float32, copy=False)
         place = _place_of(camera, rect, level, finest)
         if w:
-            h, paint = _nested((h, paint, place), (heights[w - 1], before, places[-1]), cover.root is None)
-        heights[w] = h
+            _nest((h, paint, place), (heights[w - 1], before, places[-1]), cover.root is None)
         before = paint
-        colours[w] = np.rint(np.sqrt(np.clip(paint, 0.0, 1.0)) * 255.0)
+        for rows in _strips(side):
+            colours[w, rows] = np.rint(np.sqrt(np.clip(paint[rows], 0.0, 1.0)) * 255.0)
         tops[w] = maxima(h)
         places.append(place)
     eye = math.ldexp(camera.height, finest - camera.level)
@@ -136,16 +137,21 @@ def _pixel_of(camera: Camera, level: int) -> Pixel:
     return Pixel(level, math.floor(camera.x * by), math.floor(camera.y * by))
 
 
-def _told(land: Land, level: int, rect: Rect, about: Pixel | None, cancelled: Callable[[], bool] | None) -> np.ndarray:
-    """Returns the heights of a window, worked out piece by piece where that may be cancelled."""
-    if cancelled is None:
-        return land.height(level, rect, about)
-    parts = []
-    for y in range(rect.y0, rect.y1, _ROWS_AT_ONCE):
-        if cancelled():
+def _strips(side: int) -> Iterator[slice]:
+    """Yields the rows of a window that are worked out at a time."""
+    return (slice(y, min(y + _ROWS_AT_ONCE, side)) for y in range(0, side, _ROWS_AT_ONCE))
+
+
+def _told(
+    land: Land, level: int, rect: Rect, about: Pixel | None, cancelled: Callable[[], bool] | None
+) -> Iterator[tuple[int, np.ndarray]]:
+    """Yields the heights of a window piece by piece, each with its first row: what comes and goes meanwhile would be
+    many times the window."""
+    for rows in _strips(rect.height):
+        if cancelled is not None and cancelled():
             raise Cancelled
-        parts.append(land.height(level, Rect(rect.x0, y, rect.x1, min(y + _ROWS_AT_ONCE, rect.y1)), about))
-    return np.concatenate(parts)
+        part = Rect(rect.x0, rect.y0 + rows.start, rect.x1, rect.y0 + rows.stop)
+        yield rows.start, land.height(level, part, about)
 
 
 def _levels(land: Land, camera: Camera, finest: int, cells: int, sharp: bool) -> tuple[int, ...]:
@@ -185,20 +191,22 @@ def _place_of(camera: Camera, rect: Rect, level: int, finest: int) -> tuple[floa
 Sheet = tuple[np.ndarray, np.ndarray, tuple[float, float, float]]
 
 
-def _nested(fine: Sheet, coarse: Sheet, natural: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Returns heights and colours of a window that becomes the coarser one at its rim.  What would grow there by itself
+def _nest(fine: Sheet, coarse: Sheet, natural: bool) -> None:
+    """Has heights and colours of a window become those of the coarser one at its rim.  What would grow there by itself
     grows there by the coarser one, more than half: the same slope is steeper the nearer one looks."""
     n = len(fine[0]) - 1
-    here = np.arange(n + 1)
-    off = np.minimum(here, n - here) / (WINDOW_RIM * n)
+    at = np.arange(n + 1)
+    off = np.minimum(at, n - at) / (WINDOW_RIM * n)
     off = np.clip(np.minimum(off[:, None], off[None]), 0.0, 1.0)
     part = (off * off * (3.0 - 2.0 * off)).astype(np.float32)
     ratio = fine[2][2] / coarse[2][2]
-    columns, rows = ((fine[2][a] - coarse[2][a]) / coarse[2][2] + here * ratio for a in range(2))
-    above = resampled(coarse[0], rows, columns) / np.float32(ratio)
-    under = resampled(coarse[1], rows, columns)
-    own = part * (0.4 if natural else 1.0)
-    return above + part * (fine[0] - above), under + own[:, :, None] * (fine[1] - under)
+    columns, rows = ((fine[2][a] - coarse[2][a]) / coarse[2][2] + at * ratio for a in range(2))
+    for here in _strips(n + 1):
+        above = resampled(coarse[0], rows[here], columns) / np.float32(ratio)
+        under = resampled(coarse[1], rows[here], columns)
+        own = part[here] * (0.4 if natural else 1.0)
+        fine[0][here] = above + part[here] * (fine[0][here] - above)
+        fine[1][here] = under + own[:, :, None] * (fine[1][here] - under)
 
 
 def resampled(values: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:

@@ -20,15 +20,22 @@ MISSED = -1.0
 
 
 def mipmap_of(cells: int) -> tuple[np.ndarray, np.ndarray]:
-    """Returns (offsets, sides) of the levels of a mipmap over `cells` cells a side, a power of two."""
+    """Returns (offsets, sides) of the levels of a mipmap over `cells` cells a side, a power of two.  The first level,
+    that of the cells, is none of it: four heights tell as much, and it would take as much room as all of these."""
     sides = np.array([cells >> k for k in range(cells.bit_length())], np.int64)
-    return np.concatenate([[0], np.cumsum(sides * sides)[:-1]]).astype(np.int64), sides
+    return np.concatenate([[0, 0], np.cumsum(sides[1:] * sides[1:])[:-1]])[: len(sides)].astype(np.int64), sides
+
+
+def room_of(mips: tuple[np.ndarray, np.ndarray]) -> int:
+    """Returns how many numbers a mipmap holds."""
+    sides = mips[1][1:]
+    return int((sides * sides).sum())
 
 
 def maxima(heights: np.ndarray) -> np.ndarray:
-    """Returns the largest height of each cell, then of each 2 x 2 of these, and so on, one after another."""
-    rows = np.maximum(heights[1:], heights[:-1])
-    level = np.maximum(rows[:, 1:], rows[:, :-1])
+    """Returns the largest height of each 2 x 2 cells, then of each 2 x 2 of these, and so on, one after another."""
+    rows = np.maximum(np.maximum(heights[:-1:2], heights[1::2]), heights[2::2])
+    level = np.maximum(np.maximum(rows[:, :-1:2], rows[:, 1::2]), rows[:, 2::2])
     found = [level.ravel()]
     while len(level) > 1:
         rows = np.maximum(level[::2], level[1::2])

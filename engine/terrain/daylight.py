@@ -314,9 +314,9 @@ def picture_block(
     for top in range(place[1], place[3], _COARSE):
         for left in range(place[0], place[2], _COARSE):
             beam_corners(eye, left, top, _COARSE, corners)
-            begin = clear_until(tops, mips, places, eye[0], corners, cone, highest, 0.0, far, box)
+            begin = clear_until(heights, tops, mips, places, eye[0], corners, cone, highest, 0.0, far, box)
             for part[1] in range(top, min(top + _COARSE, place[3]), fine):
                 for part[0] in range(left, min(left + _COARSE, place[2]), fine):
                     beam_corners(eye, part[0], part[1], fine, corners)
-                    near = clear_until(tops, mips, places, eye[0], corners, cone, highest, begin, far, box)
+                    near = clear_until(heights, tops, mips, places, eye[0], corners, cone, highest, begin, far, box)
                     _square(part, fine, near, eye, numbers, heights, tops, mips, places, colours, room, out)

@@ -3,6 +3,7 @@ height, slope and moisture.  Linear light, 0..1.  The look is one table."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -40,25 +41,30 @@ class Cover:
         if self.root is None:
             return self._grown(level, heights, base)
         planes = composite(self.root, level, rect, layer_planes)
-        alpha = planes[3]
-        straight = planes[:3] / np.maximum(alpha, 1e-6)
-        seen = np.moveaxis(linear(straight), 0, 2)
-        if (alpha >= 1.0).all():
-            return np.ascontiguousarray(seen, np.float32)
-        bare = self._grown(level, heights, base)
-        out: np.ndarray = bare + alpha[:, :, None] * (seen - bare)
-        return out.astype(np.float32)
-
-    def _grown(self, level: int, heights: np.ndarray, base: float) -> np.ndarray:
-        """Returns what grows there, strip by strip: what comes and goes meanwhile would be ten times the heights."""
-        out = np.empty((*heights.shape, 3), np.float32)
-        for y in range(0, len(heights), _STRIP):
-            first = max(0, y - _FARTHEST)
-            part = self._strip(level, heights[first : y + _STRIP + _FARTHEST], base)
-            out[y : y + _STRIP] = part[y - first : y - first + _STRIP]
+        alpha, out = planes[3], np.empty((*heights.shape, 3), np.float32)
+        whole = bool((alpha >= 1.0).all())
+        for rows in _strips(len(heights)):
+            seen = np.moveaxis(linear(planes[:3, rows] / np.maximum(alpha[rows], 1e-6)), 0, 2)
+            if not whole:
+                bare = self._strip(level, heights, rows, base)
+                seen = bare + alpha[rows, :, None] * (seen - bare)
+            out[rows] = seen
         return out
 
-    def _strip(self, level: int, heights: np.ndarray, base: float) -> np.ndarray:
+    def _grown(self, level: int, heights: np.ndarray, base: float) -> np.ndarray:
+        """Returns what grows there."""
+        out = np.empty((*heights.shape, 3), np.float32)
+        for rows in _strips(len(heights)):
+            out[rows] = self._strip(level, heights, rows, base)
+        return out
+
+    def _strip(self, level: int, heights: np.ndarray, rows: slice, base: float) -> np.ndarray:
+        """Returns what grows in some rows of a rectangle."""
+        first = max(0, rows.start - _FARTHEST)
+        part = self._bare(level, heights[first : rows.stop + _FARTHEST], base)
+        return part[rows.start - first : rows.stop - first]
+
+    def _bare(self, level: int, heights: np.ndarray, base: float) -> np.ndarray:
         from scipy.ndimage import gaussian_filter  # here: it takes its time to load
 
         h = heights.astype(np.float32)
@@ -68,6 +74,11 @@ class Cover:
         level_near, level_wide = _upright(near), _upright(wide)
         hollow = np.tanh(0.5 * (wide - h))  # 0 on what is even, 1 in a gully, -1 on a ridge
         return _materials(part, 0.35 * level_near + 0.65 * level_wide, level_near, hollow)
+
+
+def _strips(rows: int) -> Iterator[slice]:
+    """Yields the rows that are worked out at a time: what comes and goes meanwhile is ten times as much as they are."""
+    return (slice(y, min(y + _STRIP, rows)) for y in range(0, rows, _STRIP))
 
 
 def _upright(heights: np.ndarray) -> np.ndarray:

@@ -38,6 +38,7 @@ FINE_CELLS = 8.4  # of a window to a pixel, at most; 3.3 at least
 _THREADS = 2
 _ONE_BY_ONE = 64  # pixels of a part
 _ROWS_A_TASK = 8  # of pixels that are worked out at a time
+_ROWS_LAID = 128  # of a window, likewise
 
 
 @dataclass(slots=True)
@@ -143,9 +144,10 @@ class FinerPicture:
         around = self._under(place, n - 1, 0.0)
         rows, columns = self._samples(place, (0, n), around), self._samples(place, (0, n), around, 0)
         ratio = grid.side / windows.places[around, 2]
-        heights[:] = resampled(windows.heights[around], rows, columns) / np.float32(ratio)
         near = [np.clip(np.rint(at), 0, n - 1).astype(np.int64) for at in (rows, columns)]
-        colours[:] = windows.colours[around][np.ix_(*near)]
+        for some in (slice(y, y + _ROWS_LAID) for y in range(0, n, _ROWS_LAID)):
+            heights[some] = resampled(windows.heights[around], rows[some], columns) / np.float32(ratio)
+            colours[some] = windows.colours[around][np.ix_(near[0][some], near[1])]
         runs = list(_laid_runs(one.made))
 
         def work(run: Rect) -> tuple[Rect, Remainder | None]:

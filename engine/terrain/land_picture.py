@@ -19,6 +19,7 @@ from engine.terrain.drape import Cover
 from engine.terrain.plane import Land
 
 _BLOCK = 256, 8  # pixels that are worked out at a time
+_ROWS_DEVELOPED = 64
 _QUARTER = 4
 _HAZE = 13.0  # frames' widths at which it hides all but a third
 _EXPOSURE = 0.86
@@ -149,7 +150,10 @@ def numbers_of(
 
 def developed(light: np.ndarray, samples: int) -> np.ndarray:
     """Returns sums of linear light as a picture: a film's shoulder and toe (Narkowicz's fit), sRGB, uint8."""
-    v = light * np.float32(_EXPOSURE / samples)
-    v = np.clip(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0)
-    v = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** np.float32(1 / 2.4) - 0.055)
-    return np.asarray(v * 255.0 + 0.5).astype(np.uint8)
+    out = np.empty(light.shape, np.uint8)
+    for y in range(0, len(light), _ROWS_DEVELOPED):
+        v = light[y : y + _ROWS_DEVELOPED] * np.float32(_EXPOSURE / samples)
+        v = np.clip(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0)
+        v = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** np.float32(1 / 2.4) - 0.055)
+        out[y : y + _ROWS_DEVELOPED] = v * 255.0 + 0.5
+    return out

@@ -21,6 +21,7 @@ from engine.terrain.caster import cast
 LAID_SIDE = 64  # cells of a side of the squares that a window is made of where land is seen in it
 PART_WINDOWS = 3  # windows of a part
 _COLUMN_STEP = 2  # columns of pixels from one that is looked at to the next
+_ROWS_LOOKED_AT = 64  # of pixels, at a time
 _CELLS_AROUND = 12  # cells around a place that is seen, which are made, too
 _PIXELS_AROUND = 3  # pixels around a part whose land is, too
 _LEAST_PART = 8  # pixels of a part's side
@@ -47,16 +48,22 @@ class SeenLand:
 def seen_by(windows: Windows, eye: np.ndarray, size: tuple[int, int], pixel: float, cells: float) -> SeenLand:
     """Returns what a picture shows whose pixels grow by `pixel` along a ray; `cells`: of a window to a pixel at most.
     `eye`: as `engine.terrain.land_picture.eye_of` has it."""
-    down, across = np.mgrid[0 : size[1], 0 : size[0] : _COLUMN_STEP].astype(np.float64)
-    ways = eye[3] + across[:, :, None] * eye[1] - down[:, :, None] * eye[2]
-    ways /= np.sqrt((ways * ways).sum(axis=2, keepdims=True))
-    rays = np.concatenate([np.broadcast_to(eye[0], ways.shape), ways], axis=2).reshape(-1, 6)
-    hits = np.empty((len(rays), 2))
-    cast(windows.heights, windows.tops, windows.mips, windows.places, rays, hits)
-    away = hits[:, 0].reshape(down.shape)
-    there = away > 0.0
-    k = np.ceil(np.log2(np.where(there, away, 1.0) * (_RAYS_WIDER * pixel / cells))).astype(np.int64)
-    return SeenLand(np.where(there, k, _OF_SKY), away * ways[:, :, 0], away * ways[:, :, 1], away)
+    shape = size[1], -(-size[0] // _COLUMN_STEP)
+    k, x, y, away = np.empty(shape, np.int64), np.empty(shape), np.empty(shape), np.empty(shape)
+    for first in range(0, size[1], _ROWS_LOOKED_AT):
+        rows = slice(first, min(first + _ROWS_LOOKED_AT, size[1]))
+        down, across = np.mgrid[rows, 0 : size[0] : _COLUMN_STEP].astype(np.float64)
+        ways = eye[3] + across[:, :, None] * eye[1] - down[:, :, None] * eye[2]
+        ways /= np.sqrt((ways * ways).sum(axis=2, keepdims=True))
+        rays = np.concatenate([np.broadcast_to(eye[0], ways.shape), ways], axis=2).reshape(-1, 6)
+        hits = np.empty((len(rays), 2))
+        cast(windows.heights, windows.tops, windows.mips, windows.places, rays, hits)
+        away[rows] = hits[:, 0].reshape(down.shape)
+        there = away[rows] > 0.0
+        level = np.ceil(np.log2(np.where(there, away[rows], 1.0) * (_RAYS_WIDER * pixel / cells)))
+        k[rows] = np.where(there, level.astype(np.int64), _OF_SKY)
+        x[rows], y[rows] = away[rows] * ways[:, :, 0], away[rows] * ways[:, :, 1]
+    return SeenLand(k, x, y, away)
 
 
 class Grid(NamedTuple):

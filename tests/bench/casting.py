@@ -55,7 +55,7 @@ def primary(
     for top in range(0, hits.shape[0], BLOCK):
         for left in range(0, hits.shape[1], BLOCK):
             daylight.beam_corners(eye, left, top, BLOCK, corners)
-            begin = clear_until(tops, mips, places, eye[0], corners, cone, highest, 0.0, far, box)
+            begin = clear_until(heights, tops, mips, places, eye[0], corners, cone, highest, 0.0, far, box)
             for y in range(top, min(top + BLOCK, hits.shape[0])):
                 for x in range(left, min(left + BLOCK, hits.shape[1])):
                     size = 0.0

@@ -1,6 +1,7 @@
 """Rays over land: against marching by small steps, across windows, and in pictures that are not mirrored."""
 
 import math
+import tracemalloc
 from fractions import Fraction
 
 import numpy as np
@@ -11,7 +12,7 @@ from engine.numeric.address import Rect
 from engine.painting.value import Painting
 from engine.terrain import beams, caster
 from engine.terrain.camera import Camera, windows_of
-from engine.terrain.caster import CELLS_PER_PIXEL, cast, maxima, mipmap_of
+from engine.terrain.caster import CELLS_PER_PIXEL, cast, maxima, mipmap_of, room_of
 from engine.terrain.drape import Cover
 from engine.terrain.land_picture import Shot, developed, exposed, refinement
 from engine.terrain.plane import Land
@@ -106,12 +107,26 @@ def test_hits_are_those_of_marching(windows):
     assert set(hits[:, 1]) >= {-1.0, 2.0, 3.0}
 
 
+def test_working_out_windows_takes_little_more_room_than_they_do(windows, monkeypatch):
+    """Once heights and colours of a whole window came and went several times over, 60 MB."""
+    monkeypatch.setattr("engine.terrain.camera._ROWS_AT_ONCE", 32)
+    monkeypatch.setattr("engine.terrain.drape._STRIP", 32)
+    camera = Camera(0, Fraction(64), Fraction(64), 9.0, 0.0, -12.0)
+    tracemalloc.start()
+    made_here = windows_of(made(Hills), camera, COVER, 2, cells=256)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    held = made_here.heights.nbytes + made_here.tops.nbytes + made_here.colours.nbytes
+    assert held < 8.4 * made_here.heights.size
+    assert most - held < 20 * made_here.heights[0].nbytes
+
+
 def test_maxima_are_of_the_corners_of_all_cells():
     h = np.random.default_rng(1).normal(size=(9, 9)).astype(np.float32)
     offsets, sides = mipmap_of(8)
     found = maxima(h)
-    assert len(found) == offsets[-1] + 1
-    for k, side in enumerate(sides):
+    assert len(found) == offsets[-1] + 1 == room_of((offsets, sides))
+    for k, side in list(enumerate(sides))[1:]:
         wide = 8 // side
         for j in range(side):
             for i in range(side):
@@ -216,7 +231,9 @@ def test_rays_of_a_picture_begin_where_there_is_no_land_before(windows, monkeypa
     for left, top in np.random.default_rng(2).uniform(-0.8, 0.8, (12, 2)):
         corners = np.array([[left + CONE * 4 * (q & 1), top + CONE * 4 * (q >> 1), -0.9] for q in range(4)])
         corners *= 1.0 / np.linalg.norm(corners, axis=1).min()
-        begin = beams.clear_until.py_func(w.tops, w.mips, w.places, o, corners, CONE, highest, 0.0, 1e3, room)
+        begin = beams.clear_until.py_func(
+            w.heights, w.tops, w.mips, w.places, o, corners, CONE, highest, 0.0, 1e3, room
+        )
         for parts in ((0.1, 0.2), (0.9, 0.4), (0.5, 0.9)):
             d = corners[0] + parts[0] * (corners[1] - corners[0]) + parts[1] * (corners[2] - corners[0])
             size = float(np.linalg.norm(d))
