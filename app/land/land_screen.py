@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections import OrderedDict
 from collections.abc import Callable
 
 import moderngl
@@ -38,6 +39,7 @@ _STOPS = 0.12  # seconds without a move after which all pixels are
 _WAITED = 0.0005  # seconds: pixels that were waited for no longer may have been filled long before
 _TILES_A_FLUSH = 16  # tiles that a software renderer is told of before it fills their pixels, beside what comes next
 _SETTLES = 1.0  # seconds after the last tile that has come, in which neighbours may still show another painting
+SPARE_CARDS = 48  # tiles not drawn that are on the card, where each takes 0.1 MB
 _SKY = 24, 16  # columns and rows of the sky's corners
 _BARE = 6 * QUADS * QUADS  # corners of a tile's triangles but for its skirts'
 
@@ -94,7 +96,7 @@ class LandScreen:
         self._slow = fills_pixels(ctx.info["GL_RENDERER"])
         self._program: moderngl.Program | None = None
         self._shown: _Target | None = None
-        self._tiles: dict[TileKey, _OnCard] = {}
+        self._tiles: OrderedDict[TileKey, _OnCard] = OrderedDict()  # the longest not drawn first
         self._fade = StillFade(ctx)
         self._targets: dict[float, _Target] = {}  # by the part of width and height that they have
         self._part = 1.0  # of the last picture
@@ -226,13 +228,16 @@ class LandScreen:
             if held is not None:
                 held.release()
             held = self._tiles[tile.key] = _OnCard(self._ctx, program, tile, self._shared)
+        self._tiles.move_to_end(tile.key)
         return held
 
     def _let_go(self, state: LandState) -> None:
-        """Gives back what of the card tiles have that are kept no more."""
+        """Gives back what of the card tiles have that are kept no more, or were not drawn for long."""
         if len(self._tiles) > len(state.kept):
             for key in [key for key in self._tiles if key not in state.kept]:
                 self._tiles.pop(key).release()
+        while len(self._tiles) > len(state.drawn) + SPARE_CARDS:
+            self._tiles.popitem(last=False)[1].release()
 
 
 def _sky_mesh() -> tuple[np.ndarray, np.ndarray]:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from app.desk.land.land_state import LandState
+from app.land import land_screen
 from app.land.land_screen import LandScreen
 from app.land.still_fade import SECONDS, StillFade
 from engine.numeric.address import Rect
@@ -85,6 +86,18 @@ def test_where_the_processor_fills_pixels_they_are_fewer_as_long_as_the_eye_move
     monkeypatch.setattr(screen, "_slow", False)
     assert screen.draw(desk, 9.51)
     assert len(screen.picture()) == 96 * 64 * 3
+    screen.forget()
+
+
+def test_tiles_that_are_not_drawn_any_more_leave_the_card(context, state, monkeypatch):
+    monkeypatch.setattr(land_screen, "SPARE_CARDS", 2)
+    screen, desk = LandScreen(context), SimpleNamespace(land=state)
+    for place in (8, 900, 8):
+        state.look(Eye(Fraction(place), Fraction(8), 60.0, 15.0, -88.0), 0.0)
+        hold(state, 60)
+        assert screen.draw(desk, 9.0)
+        assert set(state.drawn) <= set(screen._tiles)
+        assert len(screen._tiles) <= len(state.drawn) + 2 < len(state.kept)
     screen.forget()
 
 

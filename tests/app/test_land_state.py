@@ -9,12 +9,19 @@ import pytest
 from app.desk.land import land_state
 from app.desk.land.land_ring import ring_on_land
 from app.desk.land.land_state import LandState
+from app.land.land_screen import SPARE_CARDS
 from engine.numeric.address import Rect
+from engine.studio.land.land_maker import LAND_CACHE
+from engine.studio.land.still_picture import STILL_CACHE
+from engine.terrain.camera import CELLS
+from engine.terrain.caster import mipmap_of, room_of
 from engine.terrain.seen.choosing import choose_tiles
 from engine.terrain.seen.eye import Eye
 from engine.terrain.seen.land_tiles import QUADS, TEXEL_RIM, TEXELS, LandTile, TileKey
+from engine.terrain.seen_parts import PART_WINDOWS
 
 SIZE = 400, 300
+_DRAWN = 160  # tiles of a picture, at most as a rule: twice 40,000 triangles
 
 
 def flat(key):
@@ -89,6 +96,15 @@ def test_tiles_take_no_more_than_their_room(state, monkeypatch):
     assert state.held == one * len(state.kept)
     state.forget()
     assert state.held == 0
+
+
+def test_all_that_is_held_for_the_land_takes_at_most_300_mb():
+    """However deep one looks: no more windows than 19 are had (see `test_a_sharp_picture_has_more_land...`)."""
+    side = CELLS + 1
+    window = side * side * (4 + 3) + 4 * room_of(mipmap_of(CELLS))
+    evaluated = LAND_CACHE + STILL_CACHE
+    cards = (_DRAWN + SPARE_CARDS) * (TEXELS + 2 * TEXEL_RIM) ** 2 * 4 * 4 // 3
+    assert (19 + PART_WINDOWS) * window + land_state.MOST_HELD + cards + evaluated < 300e6
 
 
 def test_the_brush_lies_on_the_land_as_a_stroke_of_its_radius_would(state):

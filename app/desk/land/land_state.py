@@ -18,7 +18,7 @@ from engine.terrain.seen.eye import Eye, as_fraction, place_kept
 from engine.terrain.seen.land_tiles import LandTile, TileKey
 from engine.terrain.seen.meeting import Hit, ground_under, met
 
-MOST_HELD = 80 << 20  # bytes of tiles; the windows of the picture at rest take up to 250 MB beside them
+MOST_HELD = 32 << 20  # bytes of tiles: those of a view are 13 to 48 MB; the picture at rest takes up to 210 MB beside
 LEAST_TEXEL, FIRST_TEXEL, MOST_TEXEL = 1.5, 2.5, 5.0  # pixels of the window
 TILT, FOV = -24.0, 55.0  # degrees, at first
 QUICK, SLOW = 0.020, 0.034  # seconds of a picture: with quicker ones the land becomes finer, with slower ones coarser

@@ -22,6 +22,8 @@ from engine.terrain.seen.land_tiles import FINER, QUADS, TEXELS, TileKey
 from engine.terrain.seen.tile_light import towards_sun
 from engine.terrain.seen.tile_making import SHADE_MARGIN, TileMaker
 
+LAND_CACHE = 32 << 20  # bytes of evaluated tiles, beside those that were there before, that land leaves
+
 _Where = Callable[[int], "list[Rect] | None"]
 
 
@@ -36,6 +38,7 @@ class LandMaker(Owned):
         self._changes: deque[tuple[int, _Where]] = deque(maxlen=STEPS_KEPT)
         self._wanted: dict[TileKey, int] = {}
         self._open: deque[TileKey] = deque()
+        self._others = 0  # bytes of evaluated tiles that there were before the land was looked at
         self.handlers: Handlers = {AskLand: self._ask, AskGround: self._find}
 
     @property
@@ -55,16 +58,21 @@ class LandMaker(Owned):
                 self._open.popleft()
                 self._wanted[key] = self._revision
                 self._easel.send(LandMade(tile, self._revision))
-                return
+                break
             self._open.popleft()
+        if not self._open and self._easel.live is None:
+            self._easel.session.cache.thin(self._others + LAND_CACHE)
 
     def _ask(self, request: AskLand) -> None:
+        begins = not self._wanted
         self._wanted = dict(request.tiles)
         if not self._wanted:
             self._open.clear()
             self._maker = self._painting = None
             self._changes.clear()
             return
+        if begins:
+            self._others = self._easel.session.cache.held
         self._follow()
         self._open = deque(self._wanted)
 

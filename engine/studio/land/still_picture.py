@@ -30,7 +30,7 @@ from engine.terrain.seen_parts import PART_WINDOWS
 
 _SAMPLES = 16
 _FINE = 0.3  # pixels by which land may lie elsewhere, as a rule, in the last picture
-_CACHE = 32 << 20  # bytes
+STILL_CACHE = 16 << 20  # bytes of evaluated tiles
 _COARSER_FIRST = 4  # pixels to one of the picture that comes first
 
 
@@ -65,7 +65,7 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
     """Sends a picture that becomes sharper; Cancelled as soon as it is not wanted any more."""
     eye = request.eye
     assert eye is not None
-    seen = land(painting, cache=TileCache(_CACHE))
+    seen = land(painting, cache=TileCache(STILL_CACHE))
     wet = seen.sea != 0.0
     cover = cover_of(seen, wet)
     camera = Camera(0, eye.x, eye.y, request.clear, eye.azimuth, eye.tilt, eye.fov)

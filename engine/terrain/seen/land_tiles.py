@@ -66,8 +66,8 @@ class LandTile:
 
     @property
     def held(self) -> int:
-        """Returns its bytes, those on the card included."""
-        return self.heights.nbytes + self.surface.nbytes + 7 * self.colours.nbytes // 3
+        """Returns its bytes, but for those on the card."""
+        return self.heights.nbytes + self.surface.nbytes + self.colours.nbytes
 
 
 @cache
