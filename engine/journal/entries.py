@@ -31,6 +31,7 @@ try:
 except ImportError:  # Windows: no advisory locks, so nothing is deleted there
     fcntl = None  # type: ignore[assignment]
 
+_TRIES, _AGAIN = 10, 0.01  # to lock an entry, and seconds between two
 DAYS_KEPT = 30  # days of use after which what is in the bin is deleted
 _IDENT = re.compile("[a-z][a-z0-9]{5}")
 _LETTERS, _SIGNS = "abcdefghjkmnpqrstuvwxyz", "abcdefghjkmnpqrstuvwxyz23456789"
@@ -118,17 +119,38 @@ def new_entry(folder: Path) -> tuple[Path, int | None]:
 
 
 def lock_entry(folder: Path) -> int | None:
-    """Returns the descriptor of an entry's lock, which is held until it is closed or the process ends; None where there
-    are no locks.  BlockingIOError if another program holds it, OSError if the folder cannot be written to."""
+    """Returns the descriptor of an entry's lock, which is held until `unlock_entry` or the end of the process; None
+    where there are no locks.  BlockingIOError if another program holds it, OSError if the folder cannot be written to.
+    """
     if fcntl is None:
         return None
     descriptor = os.open(folder / LOCK_FILE, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        _take(descriptor)
     except OSError:
         os.close(descriptor)
         raise
     return descriptor
+
+
+def _take(descriptor: int) -> None:
+    for tries in range(_TRIES, -1, -1):
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return
+        except BlockingIOError:  # whoever lists entries has the lock, too, for some microseconds
+            if not tries:
+                raise
+            time.sleep(_AGAIN)
+
+
+def unlock_entry(descriptor: int | None) -> None:
+    """Gives up an entry's lock, if it has one: also where a process that is just being started has a copy of it, which
+    would hold it until its program is loaded."""
+    if descriptor is not None:
+        with suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_UN)
+            os.close(descriptor)
 
 
 def is_alive(folder: Path) -> bool:

@@ -18,6 +18,7 @@ from engine.journal.volume import Continued, End, Volume
 from engine.journal.writing import SYNC_DOWN, Writing
 from engine.painting.points import ALWAYS, like_first
 
+CLOSING = 5.0  # seconds that closing waits for a disk, at most
 BATCH = 0.04  # seconds that points wait for more of them; none is older than 50 ms when it is written
 
 
@@ -141,10 +142,10 @@ class Journal:
                 for kind, payload in told:
                     self._writing.append(kind, payload)
 
-    def close(self, end: End, timeout: float = 5.0) -> None:
-        """Brings all to disk, as far as that can be done now, and ends the thread, for which it waits so many seconds
+    def close(self, end: End) -> None:
+        """Brings all to disk, as far as that can be done now, and ends the thread, for which it waits CLOSING seconds
         at most."""
         with self._writing.guard:
             self._flush()
             thread: threading.Thread = self._writing.close(end)
-        thread.join(timeout)
+        thread.join(CLOSING)

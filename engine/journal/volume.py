@@ -85,6 +85,7 @@ class Volume:
         self.end: End | None = None
         self.leaves: list[int] = []
         self.lost = self.lacks = self._unsure = False  # and whether a disk refused to sync
+        self._syncing = False
         self.append(Kind.HEAD, _told_head(self.head, self._after))
         for kind, payload in () if continued is None else continued.first:
             self.append(kind, payload)
@@ -92,7 +93,7 @@ class Volume:
     @property
     def settled(self) -> bool:
         """Tells whether all that was appended is on disk."""
-        return self.open and not self.held and self.sync_at is None
+        return self.open and not self.held and self.sync_at is None and not self._syncing
 
     @property
     def is_whole(self) -> bool:
@@ -193,12 +194,13 @@ class Volume:
         dropped it, and say otherwise when it is asked again."""
         with self._guard:
             file, count, self.sync_at = self._file, len(self._recent), None
+            self._syncing = file is not None
         if file is None:
             return
-        if not self.is_whole:
-            self._start_again(file)
-            return
         try:
+            if not self.is_whole:
+                self._start_again(file)
+                return
             if count or not self._durable:
                 (os.fdatasync if hasattr(os, "fdatasync") else os.fsync)(file)
             if not self._durable:
@@ -212,6 +214,8 @@ class Volume:
                 self._unsure = True
                 self._go_on_in_another()
             return
+        finally:
+            self._syncing = False
         with self._guard:
             if self._unsure:
                 self._unsure, self.fault = False, None
@@ -229,10 +233,10 @@ class Volume:
                 entries.remove_entry(self.folder)
         for remnant in self._remnants if self.end is End.DELETED else ():
             shutil.rmtree(remnant, ignore_errors=True)
-        for descriptor in (self._file, self._lock):
-            if descriptor is not None:
-                with suppress(OSError):
-                    os.close(descriptor)
+        if self._file is not None:
+            with suppress(OSError):
+                os.close(self._file)
+        entries.unlock_entry(self._lock)
         self._file = self._lock = None
 
     def _start_again(self, file: int) -> None:
@@ -252,8 +256,7 @@ class Volume:
         """Does without the folder.  Where it held more than what is in memory, nothing can be written until all is told
         anew."""
         with self._guard:
-            if self._lock is not None:
-                os.close(self._lock)
+            entries.unlock_entry(self._lock)
             if self.folder is not None:
                 self._remnants.append(self.folder)
             self._lock = self.folder = None

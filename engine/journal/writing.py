@@ -90,9 +90,10 @@ class Writing:
                 except Exception as error:
                     _LOGGER.error("a fault, while the journal was written", exc_info=error)
                     self._retry(volume)
-            if self.now.fault != self._told:
-                self._told = self.now.fault
-                self._tell(self._told)
+            with self.guard:
+                tell, before, self._told = self._tell, self._told, self.now.fault
+            if self._told != before:
+                tell(self._told)
             if self.now.lost:
                 self._wake()
             if closing:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from engine.archive.plot_files import Mark
+from engine.journal.entries import unlock_entry
 from engine.journal.heads import FileStamp
 from engine.journal.volume import Continued
 from engine.keeping import memory
@@ -65,8 +65,8 @@ class Document:
 
     def drop(self) -> None:
         """Gives back what is held for it: nobody wants it any more."""
-        if self.reopened is not None and self.reopened.continued.lock is not None:
-            os.close(self.reopened.continued.lock)
+        if self.reopened is not None:
+            unlock_entry(self.reopened.continued.lock)
 
     def session(self) -> Session:
         """Returns a session with the painting, for the thread that calls this."""

@@ -6,7 +6,6 @@ What was asked for and has no answer is carried out last, a stroke without its e
 from __future__ import annotations
 
 import io
-import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -19,7 +18,7 @@ from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.zip_reader import ZipArchive
 from engine.journal.checkpoints import read_checkpoint
-from engine.journal.entries import lock_entry
+from engine.journal.entries import lock_entry, unlock_entry
 from engine.journal.heads import header_of, renamed_head
 from engine.journal.kept import kept_file, kept_sources, stamp_of
 from engine.journal.records import NUMBER, Kind, Touch, told_command
@@ -110,8 +109,7 @@ def reopened(folder: Path, progress: documents.Progress) -> Document:
         found = recovered(folder, progress.tell)
         continued = continued_entry(folder, lock, found.story, found.settled)
     except BaseException as error:
-        if lock is not None:
-            os.close(lock)
+        unlock_entry(lock)
         if isinstance(error, BlockingIOError):
             raise FileError(folder, "is open in another window") from None
         raise

@@ -5,7 +5,6 @@ Both are in memory.  It is made beside the engine's thread, and the journal turn
 
 from __future__ import annotations
 
-import os
 import shutil
 import time
 from collections.abc import Callable, Sequence
@@ -17,7 +16,7 @@ from pathlib import Path
 
 from engine.checks.owned import Owned
 from engine.files.fault import FileError
-from engine.journal.entries import new_entry
+from engine.journal.entries import new_entry, unlock_entry
 from engine.journal.heads import head_again
 from engine.journal.kept import keep_painting, keep_source
 from engine.journal.records import Kind, Members, told_command
@@ -144,5 +143,4 @@ def _told(commands: Sequence[c.Command]) -> list[tuple[Kind, bytes]]:
 
 def _drop(folder: Path, lock: int | None) -> None:
     shutil.rmtree(folder, ignore_errors=True)
-    if lock is not None:
-        os.close(lock)
+    unlock_entry(lock)

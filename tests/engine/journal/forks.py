@@ -21,17 +21,18 @@ from engine.brush.settings import Brush
 from engine.studio import warming
 from engine.studio.preparing import exercise, waiting
 
-PATIENCE = 3.0  # seconds that one waits for what a painter is to do, at most
+PATIENCE = 90.0  # seconds that one waits for what a painter is to do, at most
+GROWS = 3.0  # likewise; what it has painted with an example may have grown by then
 DURING = 0.03  # seconds that it may have been at it
 
 
 def killed(child: int, log: Path, kind: str, told: random.Random, longest: float) -> None:
     """Kills a painter at a random moment."""
     after = told.uniform(0.02, longest)
-    while not (log.exists() and b"up " in log.read_bytes()):
-        time.sleep(0.005)  # its first stroke is drawn
+    while not (log.exists() and b"kept\n" in (text := log.read_bytes()) and b"up " in text):
+        time.sleep(0.005)  # its first stroke is drawn, and its journal is there
     time.sleep(after)
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + (GROWS if kind == "growing" else PATIENCE)
     while kind not in ("painting", *at(log).split()) and time.monotonic() < end:
         time.sleep(0.001)
     time.sleep(told.uniform(0.0, DURING))

@@ -3,8 +3,8 @@
 `python headless.py FOLDER SEED [FILES [WHEN [KIND]]]` paints, once the engine is "loaded" or "at once", until it is
 killed.  KIND: what it does besides, a row of KINDS.  It tells on standard output what it does: "up N" after the pen was
 lifted N times, "ask N" after N commands, "at N K T U" after stroke N has K points, which were posted from T to U by the
-monotonic clock, "now WORDS" when what goes on in the background has changed, "saved" and "exported" when a file of
-FILES was written.
+monotonic clock, "kept" when its journal is there, so that all is written at once from then on, "now WORDS" when what
+goes on in the background has changed, "saved" and "exported" when a file of FILES was written.
 """
 
 from __future__ import annotations
@@ -66,6 +66,7 @@ class Painter:
     def __init__(self, folder: str) -> None:
         self.worker = Worker(lambda: None, posts=Posts(Journal(head_of_new(), Path(folder))))
         self.loaded, self.busy, self._saves, self._exports, self._grows = False, "", False, False, False
+        self._kept = False
 
     def hear(self) -> None:
         """Takes the results, and tells those that matter."""
@@ -84,7 +85,11 @@ class Painter:
         self._tell()
 
     def _tell(self) -> None:
-        """Tells what goes on in the background, if that has changed."""
+        """Tells what goes on in the background, if that has changed, and that its journal is there."""
+        entry = self.worker.journal.entry
+        if not self._kept and entry.open and not entry.held:
+            self._kept = True
+            print("kept", flush=True)
         now = {"saving": self._saves, "exporting": self._exports, "growing": self._grows}
         busy = " ".join(word for word, at_it in now.items() if at_it)
         if busy != self.busy:

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from test_answers import draw, idle
+from test_disk_full import until
 from test_killed import pixels
 from test_recovering import left, painter
 
@@ -46,12 +47,12 @@ def paint(folder, rounds=6):
 
 def end_of_checkpoint(worker):
     """Waits until nothing is being written beside the journal."""
-    done, end = [], time.monotonic() + 90
-    while not done:
-        story = read_story(worker._posts.journal.entry.folder)
-        done = [point for point in story.checkpoints if point.commands == len(story.commands)]
-        assert time.monotonic() < end
-        time.sleep(0.02)
+
+    def newest():
+        story = read_story(worker.entry)
+        return any(point.commands == len(story.commands) for point in story.checkpoints)
+
+    until(lambda: worker.entry is not None and newest())
 
 
 def whole(session):
@@ -93,16 +94,14 @@ def test_nothing_that_needs_kernels_is_begun_while_others_compile_them_and_then_
     worker._posts.is_compiling = lambda: compiling[0]
     draw(worker, 30, 0)
     idle(worker)
-    folder = worker._posts.journal.entry.folder
+    until(lambda: worker.entry is not None)
+    folder = worker.entry
     time.sleep(0.3)
     assert not read_story(folder).checkpoints
     assert not (folder / entries.PICTURE_FILE).exists()
     compiling[0] = False
     end_of_checkpoint(worker)
-    end = time.monotonic() + 90
-    while not (folder / entries.PICTURE_FILE).exists():
-        assert time.monotonic() < end
-        time.sleep(0.02)
+    until((folder / entries.PICTURE_FILE).exists)
     left(worker)
 
 

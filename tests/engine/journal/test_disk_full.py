@@ -73,7 +73,7 @@ def test_a_disk_fills_while_one_paints_and_saves(small_disk):
     (full,) = [note for note in notes if getattr(note, "about", "") == "journal"]
     assert full.stays
     assert full.text == "What you paint is kept in memory only: the disk is full"
-    folder = worker._posts.journal.entry.folder
+    folder = worker.entry
     assert len(read_story(folder).commands) < 12
     (small_disk / "filler").unlink()
     until(lambda: any(getattr(note, "text", "") == "What you paint is on disk again" for note in worker.results()))

@@ -11,7 +11,7 @@ from PIL import Image
 from test_answers import draw, idle, points
 from test_disk_full import until
 from test_killed import pixels
-from test_recovering import left, painter, saved
+from test_recovering import copied, left, painter, saved
 
 from engine.archive.opening import open_painting
 from engine.journal import entries
@@ -125,18 +125,8 @@ def whole(worker, folder):
 def then(worker, tmp_path):
     """What a `kill -9` would leave now: the one entry, recovered."""
     found = []
-
-    def one():
-        left_over = tmp_path / f"then-{time.monotonic_ns()}"
-        try:
-            shutil.copytree(tmp_path / "p", left_over)
-        except OSError:
-            return False  # a file or a folder came or went while it was copied: no moment was ever like that
-        found[:] = entries.listed(left_over)
-        return len(found) == 1
-
-    until(one)
-    (entry,) = found
+    until(lambda: found.append(copied(tmp_path / "p", tmp_path)) or found[-1])
+    (entry,) = entries.listed(found[-1])
     assert not entry.in_bin
     assert not entry.faults
     return entry, recovered(entry.folder)

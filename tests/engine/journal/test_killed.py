@@ -62,11 +62,14 @@ class Told:
 
 
 def killed(folder, seed, after, *more):
-    """What a painter had told when it was killed."""
+    """What a painter had told when it was killed, some seconds after its journal was there."""
     process = subprocess.Popen(
         [sys.executable, HERE / "headless.py", folder, str(seed), *more], stdout=subprocess.PIPE, cwd=HERE.parents[2]
     )
-    told = process.stdout.readline()
+    told = b""
+    while not told.endswith(b"kept\n"):
+        told += process.stdout.readline()
+        assert process.poll() is None
     time.sleep(after)
     process.send_signal(signal.SIGKILL)
     lines = told + process.stdout.read()

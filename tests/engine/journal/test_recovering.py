@@ -50,6 +50,24 @@ def left(worker):
     worker.close(60, by_choice=False)
 
 
+def copied(folder, tmp_path):
+    """A copy of a folder in which others write; None if anything came or went meanwhile: no moment was ever like it."""
+    copy = tmp_path / f"then-{time.monotonic_ns()}"
+    try:
+        return shutil.copytree(folder, copy)
+    except OSError:
+        return None
+
+
+def left_over(worker, tmp_path):
+    """A copy of its entry, as a `kill -9` would leave it now that all is on disk."""
+    end = time.monotonic() + 90
+    while not (worker.journal.settled and (copy := copied(worker.entry, tmp_path))):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    return copy
+
+
 def first(worker, kind):
     """The first result of this kind that comes; the others are dropped."""
     while True:
@@ -66,6 +84,7 @@ def saved(worker, path):
     found = []
     while not any(isinstance(result, results.Saved) for result in found):
         found += idle(worker)
+        time.sleep(0.002)
 
 
 def test_the_copies_of_a_stroke_are_recovered_of_one_in_hand_too(tmp_path):
@@ -194,6 +213,7 @@ def test_a_recovery_that_is_given_up_leaves_its_entry_to_others(tmp_path, monkey
         end = time.monotonic() + 90
         while entries.is_alive(entry.folder):
             assert time.monotonic() < end
+            time.sleep(0.002)
         goes_on.clear()
     left(two)
     assert entries.listed(tmp_path / "p") == (entry,)
@@ -267,9 +287,9 @@ def test_a_save_replaces_what_was_opened_only_when_that_is_kept(tmp_path, monkey
     saved(two, file)
     draw(two, 40, 3)
     idle(two)
-    shutil.copytree(two._posts.journal.entry.folder, tmp_path / "then")
+    then = left_over(two, tmp_path)
     two.close(60)
-    found = recovered(tmp_path / "then")
+    found = recovered(then)
     assert (found.missing, found.known) == ([], True)
     assert [len(command.points) for command in found.session.log] == [40, 40, 40]
 
