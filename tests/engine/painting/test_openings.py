@@ -105,7 +105,7 @@ def test_what_was_painted_meanwhile_and_saved_is_not_asked_about(tmp_path):
     slow = Slow(window)
     paint(window)
     window.studio.do(q.Save(tmp_path / "a.ora"))
-    end = time.monotonic() + 60
+    end = time.monotonic() + 90
     while window.scene().modified:
         assert time.monotonic() < end
         if window.posted:
@@ -120,7 +120,7 @@ def test_it_can_be_given_up_at_any_time(end):
     slow = Slow(window)
     window.studio.close() if end == "close" else window.studio.do(end)
     assert of(window, results.Opening)[-1] == results.Opening()
-    assert slow.ended.wait(10)
+    assert slow.ended.wait(90)
     painting = window.studio.easel.session.painting
     window.studio.do(Show(1, sure=True))
     assert window.studio.easel.session.painting is painting
@@ -133,7 +133,7 @@ def test_another_file_takes_the_place_of_one_that_hangs(tmp_path):
     save(tmp_path / "a.ora", Snapshot(Painting(seed=5)))
     opens(window.studio, window.posted, tmp_path / "a.ora")
     assert window.studio.easel.session.painting.seed == 5
-    assert slow.ended.wait(10)
+    assert slow.ended.wait(90)
 
 
 @pytest.mark.parametrize("ending", [".ora", ".png", ".jsonl"])

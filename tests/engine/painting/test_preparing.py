@@ -282,7 +282,7 @@ def test_a_preparation_that_is_killed_leaves_usable_kernels_and_no_process(tmp_p
         env=environment,
         capture_output=True,
         text=True,
-        timeout=100,
+        timeout=250,
         check=False,
     )
     assert done.returncode == 0, done.stderr

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from queue import Queue
 
 import pytest
 
@@ -53,20 +54,19 @@ class Bench:
 
 @pytest.fixture
 def worker():
-    woken = threading.Event()
-    made = []
+    made = Queue()
 
     def make(send, post):
-        made.append(Bench(send))
-        made[0].post = post
-        return made[0]
+        bench = Bench(send)
+        bench.post = post
+        made.put(bench)
+        return bench
 
-    one = Worker(woken.set, make)
-    woken.wait(90)
-    one.bench, one.woken = made[0], woken
+    one = Worker(lambda: None, make)
+    one.bench = made.get(timeout=90)
     yield one
-    made[0].gate.set()
-    one.close()
+    one.bench.gate.set()
+    one.close(90)
 
 
 def until(condition):
@@ -110,7 +110,7 @@ def test_what_is_posted_while_it_closes_is_carried_out(worker):
     """The threads that write files post that they have, and closing waits for them."""
     bench = worker.bench
     bench.close = lambda: worker.post(q.Written(1))
-    worker.close()
+    worker.close(90)
     assert bench.did == [q.Written(1)]
 
 
@@ -195,7 +195,7 @@ def test_swatches_that_are_wanted_soon_go_first(worker):
 
 
 def test_tiles_let_a_swatch_pass_now_and_then(worker, monkeypatch):
-    monkeypatch.setattr("engine.studio.worker.PASSING", 5.0)  # of which the machine may do something else
+    monkeypatch.setattr("engine.studio.worker.PASSING", 600.0)  # until no tiles are left
     worker.bench.gate.clear()
     worker.post(q.Look(tuple((0, n, 0, -1) for n in range(2000))))
     until(lambda: worker.bench.open)
@@ -232,7 +232,7 @@ def test_closing_does_what_was_posted_before(worker):
     for post in posts:
         worker.post(post)
     threading.Timer(0.05, worker.bench.gate.set).start()
-    worker.close()
+    worker.close(90)
     assert worker.bench.did == [*posts, "closed"]
 
 
@@ -306,8 +306,9 @@ def test_commands_need_no_turn(worker):
     assert len(worker.bench.did) <= few(began) + 1
 
 
-def test_a_swatch_waits_until_turns_are_over(worker):
-    worker.turn(time.monotonic() + 60.0)
+def test_a_swatch_waits_until_turns_are_over(worker, monkeypatch):
+    monkeypatch.setattr("engine.studio.worker.LONGER", 600.0)
+    worker.turn(time.monotonic() + 600.0)
     worker.post(q.Swatch("ink", None, (1, 1)))
     time.sleep(0.1)
     assert worker.bench.did == []
@@ -317,7 +318,7 @@ def test_a_swatch_waits_until_turns_are_over(worker):
 
 def test_a_swatch_does_not_wait_for_ever(worker, monkeypatch):
     monkeypatch.setattr("engine.studio.worker.LONGER", 0.05)
-    worker.turn(time.monotonic() + 60.0)
+    worker.turn(time.monotonic() + 600.0)
     worker.post(q.Swatch("ink", None, (1, 1)))
     until(lambda: len(worker.bench.did) == 1)
 
