@@ -17,7 +17,7 @@ import sys, time
 from pathlib import Path
 from engine.keeping.claim import claim
 print(claim(Path(sys.argv[1])) is not None, flush=True)
-time.sleep(60)
+time.sleep(600)
 """
 
 

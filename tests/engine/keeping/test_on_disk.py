@@ -132,6 +132,8 @@ print("ready", flush=True)
 sys.stdin.readline()
 save(name + "first", True)
 seen = look()
+print("looked", flush=True)
+sys.stdin.readline()
 while number < count:
     time.sleep(rng.random() * 0.004)
     try:
@@ -143,6 +145,11 @@ while number < count:
         print(seen, f"{name}{number}", flush=True)
         seen, number = f"{name}{number}", number + 1
 """
+
+
+def goes_on(child):
+    child.stdin.write("\n")
+    child.stdin.flush()
 
 
 def two_that_save(path, count):
@@ -158,9 +165,11 @@ def two_that_save(path, count):
     ]
     for child in children:
         assert child.stdout.readline() == "ready\n"
+    for child in children:  # the second replaces what the first has looked at
+        goes_on(child)
+        assert child.stdout.readline() == "looked\n"
     for child in children:
-        child.stdin.write("\n")
-        child.stdin.flush()
+        goes_on(child)
     lines = [line.split() for child in children for line in child.communicate(timeout=120)[0].splitlines()]
     assert [child.returncode for child in children] == [0, 0]
     return [line for line in lines if len(line) == 2], lines.count(["asked"])

@@ -23,7 +23,7 @@ with unfinished(Path(sys.argv[1])), replacing(sys.argv[1]) as file:
     file.write(b"half")
     file.flush()
     print("half", flush=True)
-    time.sleep(60)
+    time.sleep(600)
 """
 
 
@@ -60,7 +60,7 @@ def test_a_killed_save_leaves_nothing_and_one_that_goes_on_is_left_alone(folder)
 def test_what_a_killed_film_of_numbered_pictures_left_is_gone(folder):
     code = "import sys, time\nfrom pathlib import Path\nfrom engine.files.atomic import part_folder\n"
     code += "from engine.keeping.unfinished import unfinished\npath = Path(sys.argv[1])\nwith unfinished(path):\n"
-    code += "    (part_folder(path) / 'lake-1.png').write_bytes(b'1')\n    print('1', flush=True)\n    time.sleep(60)"
+    code += "    (part_folder(path) / 'lake-1.png').write_bytes(b'1')\n    print('1', flush=True)\n    time.sleep(600)"
     with subprocess.Popen(
         [sys.executable, "-c", code, folder / "lake-%d.png"], stdout=subprocess.PIPE, cwd=ROOT
     ) as child:
