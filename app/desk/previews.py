@@ -7,12 +7,13 @@ import threading
 from collections import deque
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from engine.studio.results import Picture
 
+_Job = TypeVar("_Job")
 _MOST = 100_000_000  # pixels of a picture that is made small
 MOST_BYTES = 4 << 20  # of the small picture in a painting
 PAPER, FIELD = (244, 244, 244, 255), (29, 29, 29, 255)  # sRGB: below pictures with holes, and around them
@@ -35,26 +36,59 @@ def ident(folder: Path, row: FileRow) -> str:
     return f"file {folder / row.name} {row.changed} {row.size}"
 
 
+class InTurn(Generic[_Job]):
+    """Jobs that a thread does one after another: it begins when there are some, and ends when there are none.  `do` is
+    called on it, and it has this `name`; all else comes from the window's thread."""
+
+    def __init__(self, name: str, do: Callable[[_Job], None]) -> None:
+        self._name, self._do = name, do
+        self._lock = threading.Lock()  # for moments: of the jobs, and of whether the thread looks for one more
+        self._jobs: deque[_Job] = deque()
+        self._looks = False
+        self.thread: threading.Thread | None = None
+
+    def want(self, jobs: Iterable[_Job], instead: bool = False) -> None:
+        """Has jobs done after those that wait, or `instead` of them."""
+        with self._lock:
+            if instead:
+                self._jobs.clear()
+            self._jobs.extend(jobs)
+            if self._jobs and not self.busy:
+                self._looks = True
+                self.thread = threading.Thread(target=self._work, name=self._name, daemon=True)
+                self.thread.start()
+
+    @property
+    def busy(self) -> bool:
+        """Tells whether jobs are done, or wait."""
+        return self._looks and self.thread is not None and self.thread.is_alive()
+
+    def _work(self) -> None:
+        while (found := self._taken()) is not None:
+            self._do(found)
+
+    def _taken(self) -> _Job | None:
+        with self._lock:
+            self._looks = bool(self._jobs)
+            return self._jobs.popleft() if self._jobs else None
+
+
 class Previews:
     """Makes the pictures asked for last.  `wake` is called from the thread when one is ready; one that cannot be made
     never comes.  All other calls come from the window's thread."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        self._wanted: deque[tuple[str, Path, int]] = deque()
+        self._made: InTurn[tuple[str, Path, int]] = InTurn("inkfall previews", self._make)
         self._ready: deque[Picture] = deque()
         self._begun: set[str] = set()
-        self._thread: threading.Thread | None = None
 
     def ask(self, folder: Path, rows: Iterable[FileRow], side: int) -> None:
         """Has pictures of files in a folder made, at most `side` pixels wide and high; in place of those asked for
         before that are not begun."""
         files = [row for row in rows if row.name.lower().endswith((PAINTING, *PHOTOSHOP, *PICTURES))]
         wanted = [(ident(folder, row), folder / row.name, side) for row in files]
-        self._wanted = deque(one for one in wanted if one[0] not in self._begun)
-        if self._wanted and (self._thread is None or not self._thread.is_alive()):
-            self._thread = threading.Thread(target=self._work, name="inkfall previews", daemon=True)
-            self._thread.start()
+        self._made.want([one for one in wanted if one[0] not in self._begun], instead=True)
 
     def take(self) -> list[Picture]:
         """Returns what is ready."""
@@ -63,20 +97,16 @@ class Previews:
     @property
     def busy(self) -> bool:
         """Tells whether pictures are made, or to be taken."""
-        return bool(self._ready) or (self._thread is not None and self._thread.is_alive())
+        return self._made.busy or bool(self._ready)  # in this order: what is made is ready then
 
-    def _work(self) -> None:
-        while True:
-            try:
-                name, path, side = self._wanted.popleft()
-            except IndexError:
-                return
-            if name not in self._begun:
-                self._begun.add(name)
-                small = small_picture(path, side)
-                if small is not None:
-                    self._ready.append(Picture(name, small))
-                    self._wake()
+    def _make(self, wanted: tuple[str, Path, int]) -> None:
+        name, path, side = wanted
+        if name not in self._begun:
+            self._begun.add(name)
+            small = small_picture(path, side)
+            if small is not None:
+                self._ready.append(Picture(name, small))
+                self._wake()
 
 
 def small_picture(path: Path, side: int) -> np.ndarray | None:

@@ -18,7 +18,7 @@ def scaled():
     need("Xvfb", "xdotool", "xprop")
     process, name = started_screen("1440x900")
     words = ["xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", "Xft.dpi:\t105.6\n"]
-    subprocess.run(words, check=True, env={**os.environ, "DISPLAY": name}, timeout=30)
+    subprocess.run(words, check=True, env={**os.environ, "DISPLAY": name}, timeout=90)
     yield name
     process.terminate()
     process.wait(90)

@@ -10,7 +10,7 @@ from PIL import Image
 from app.desk import previews
 from app.desk.files import carried_out
 from app.desk.folders import ReadFolder, size_text
-from app.desk.previews import FileRow, Previews, small_picture
+from app.desk.previews import FileRow, InTurn, Previews, small_picture
 from engine.painting.value import Painting
 from engine.studio.filing import documents
 
@@ -76,6 +76,19 @@ def test_files_without_a_picture_have_none(tmp_path):
 def test_a_painting_shows_its_thumbnail(tmp_path):
     documents.save(tmp_path / "empty.ora", Painting(), None)
     assert small_picture(tmp_path / "empty.ora", 16).shape == (16, 16, 4)
+
+
+def test_what_is_wanted_as_the_thread_ends_is_done():
+    done = []
+    for n in range(60):
+        turn = InTurn("one", done.append)
+        turn.want([n])
+        while len(done) == 2 * n:  # it has done what there was, and is about to end
+            time.sleep(0)
+        turn.want([-n])
+        turn.thread.join(90)
+        assert done[2 * n :] == [n, -n]
+        assert not turn.busy
 
 
 def test_pictures_are_made_once_and_again_when_the_file_has_changed(tmp_path):

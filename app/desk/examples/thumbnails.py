@@ -4,7 +4,6 @@ pictures that maps of theirs are.
 
 from __future__ import annotations
 
-import threading
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
@@ -15,6 +14,7 @@ import numpy as np
 from app.desk.examples import own_example_files
 from app.desk.examples.charts import chart_of
 from app.desk.examples.example_state import Entry
+from app.desk.previews import InTurn
 from engine.files.fault import FileError
 from engine.studio.results import Picture
 
@@ -49,26 +49,24 @@ class Shelf:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        self._wanted: deque[Callable[[], Picture]] = deque()
+        self._made: InTurn[Callable[[], Picture]] = InTurn("inkfall thumbnails", self._make)
         self._ready: deque[Picture] = deque()
         self._known: dict[str, tuple[str, int]] = {}
-        self._thread: threading.Thread | None = None
 
     def ask(self, entries: tuple[Entry, ...], side: int) -> None:
         """Has thumbnails made of those with files that have none, or none of that size, or another region by now; and
         their maps read that are pictures, once."""
+        wanted: list[Callable[[], Picture]] = []
         for entry in (entry for entry in entries if entry.here is None):
             state = entry.mask_sha, side
             if self._known.get(entry.ident) != state:
                 self._known[entry.ident] = state
-                self._wanted.append(partial(_seen, entry, side))
+                wanted.append(partial(_seen, entry, side))
             for path in map(map_path, entry.maps.values()):
                 if path and map_ident(path) not in self._known:
                     self._known[map_ident(path)] = "", 0
-                    self._wanted.append(partial(_map_seen, path))
-        if self._wanted and (self._thread is None or not self._thread.is_alive()):
-            self._thread = threading.Thread(target=self._work, name="inkfall thumbnails", daemon=True)
-            self._thread.start()
+                    wanted.append(partial(_map_seen, path))
+        self._made.want(wanted)
 
     def take(self) -> list[Picture]:
         """Returns what is ready."""
@@ -80,14 +78,12 @@ class Shelf:
     @property
     def busy(self) -> bool:
         """Tells whether pictures are made, or to be taken."""
-        return bool(self._ready) or (self._thread is not None and self._thread.is_alive())
+        return self._made.busy or bool(self._ready)  # in this order: what is made is ready then
 
-    def _work(self) -> None:
-        while self._wanted:
-            make = self._wanted.popleft()
-            with suppress(FileError, OSError):  # a picture that cannot be read has no thumbnail
-                self._ready.append(make())
-                self._wake()
+    def _make(self, make: Callable[[], Picture]) -> None:
+        with suppress(FileError, OSError):  # a picture that cannot be read has no thumbnail
+            self._ready.append(make())
+            self._wake()
 
 
 def _seen(entry: Entry, side: int) -> Picture:

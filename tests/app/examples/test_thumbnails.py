@@ -32,7 +32,7 @@ def test_thumbnails_are_made_once_and_again_for_another_region(desk, tmp_path):
         Entry("no", "X", tmp_path / "no.png", None, Parameters(), True),
     ):
         made.ask((known,), 32)
-        made._thread.join(90)
+        made._made.thread.join(90)
     assert [picture.ident for picture in made.take()] == ["example bundled felt"] * 2
     assert len(woken) == 2
 
@@ -44,7 +44,7 @@ def test_maps_that_are_pictures_are_read_once_as_dark_and_light_as_they_tell(des
     made = thumbnails.Shelf(lambda: None)
     for _ in range(2):
         made.ask((replace(named(desk, "felt"), maps=maps),), 32)
-        made._thread.join(90)
+        made._made.thread.join(90)
     told = {picture.ident: picture.pixels for picture in made.take()}
     assert sorted(told) == ["example bundled felt", thumbnails.map_ident(str(path))]
     assert told[thumbnails.map_ident(str(path))].tolist() == [[[n, n, n, 255] for n in (0, 255, 60)]]

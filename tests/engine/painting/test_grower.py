@@ -297,7 +297,7 @@ def test_a_stroke_is_served_while_refinement_runs_and_closing_is_safe(meadow):
     worker.post(q.Look(tuple((*tile, -1) for tile in TILES)))
     for y in range(0, 400, 40):  # far more than is refined at once
         worker.post(q.Do(stroke([[0, y], [600, y]], radius=20)))
-    end = time.monotonic() + 60
+    end = time.monotonic() + 200
     while not any(isinstance(r, results.Growing) for r in came):
         woken.wait(1.0)
         woken.clear()
@@ -306,7 +306,7 @@ def test_a_stroke_is_served_while_refinement_runs_and_closing_is_safe(meadow):
     worker.post(q.Begin(0, (0, 0), brush(example="b")))
     worker.post(q.Points(points([[40, 40]])))
     worker.post(q.Finish())
-    worker.close(60.0)
+    worker.close(200.0)
     assert not worker._thread.is_alive()
     came += worker.results()
     assert not [r for r in came if isinstance(r, results.Note) and r.bad]

@@ -102,6 +102,6 @@ def test_a_picture_at_rest_that_is_not_wanted_any_more_does_not_come(easel):
     with stills._turn:  # none begins before both are asked for
         ask(AskStill(1, eye, 80.0, (64, 40)))
         ask(AskStill(2, eye, 80.0, (64, 40)))
-    assert come.wait(60)
+    assert come.wait(200)
     assert [told.number for told in easel.sent if told.last] == [2]
     assert easel.sent[-1].pixels.shape == (40, 64, 3)

@@ -140,7 +140,7 @@ def test_threads_stop_where_no_more_is_asked_for(monkeypatch):
     readying, alone, gate, ended = regions._readying, regions._alone, Event(), []
 
     def gated(region, n, *where):
-        assert n > 0 or gate.wait(20)
+        assert n > 0 or gate.wait(200)
         return (yield from readying(region, n, *where))
 
     monkeypatch.setattr(regions, "_readying", gated)
