@@ -95,6 +95,6 @@ def _texture() -> Texture:
     random = np.random.default_rng(1)
     y, x = np.mgrid[:_SIDE, :_SIDE] - (_SIDE - 1) / 2.0
     depth = _SIDE * 0.46 - np.hypot(x, y)
-    alpha = np.clip(0.4 + depth / 8.0, 0.0, 1.0) * (depth > 0)
+    alpha = np.clip(0.2 + depth / 8.0, 0.0, 1.0) * (depth > 0)  # faint at the rim: narrow strokes are widened
     planes = np.concatenate([random.random((3, _SIDE, _SIDE)) * alpha, alpha[None]]).astype(np.float32)
     return Texture(KIND, Map(asdict(NEW)), ImageSource.of("a", planes))
