@@ -44,6 +44,7 @@ class Preparing:
         self._noted = Noted()
         self._lost: set[Job] = set()  # whose process died
         self._threads: dict[int, threading.Thread] = {}
+        self._ending: list[threading.Thread] = []  # that have left, and are about to end
         self._running: set[CompileProcess] = set()
         self._signal = threading.Condition()
         self._painting, self._painted = False, 0.0
@@ -95,7 +96,8 @@ class Preparing:
             for process in self._running:
                 process.kill()
             self._signal.notify_all()
-        for thread in list(self._threads.values()):
+            threads = [*self._threads.values(), *self._ending]
+        for thread in threads:
             thread.join()
 
     # --- the threads -------------------------------------------------------------------------------------------------
@@ -171,7 +173,7 @@ class Preparing:
                 self._queue.end(job)
                 self._lost.add(job)
             self._queue.leave(number)
-            del self._threads[number]
+            self._ending = [thread for thread in self._ending if thread.is_alive()] + [self._threads.pop(number)]
             self._start_threads()
             self.count += 1
             self._signal.notify_all()
