@@ -57,6 +57,24 @@ def test_a_colour_that_is_dropped_into_a_region_fills_it(app):
     assert (screen[MIDDLE[1] - 40 : MIDDLE[1] + 40, MIDDLE[0] - 40 : MIDDLE[0] + 40] == colour).all()
     app.keys("ctrl+z")
     assert app.comes_to(app.outlined)
+    app.drag(app.at("shade 6"), MIDDLE)
+    app.do("mouseup", 1)
+    app.canvas_unlike(app.outlined)
+    app.keys("ctrl+z")
+    assert app.comes_to(app.outlined)
+
+    # A press on a patch of a panel that floats over the canvas takes the colour, and fills nothing below it.
+    _, y = app.at("Colour")
+    app.drag((1060, y), (760, 110))
+    app.do("mouseup", 1)
+    app.wait_until(lambda: app.box("Colour")[0] < 760, "it does not float")
+    before = app.screen()[app.at("now")[::-1]].astype(int)
+    app.click("shade 2")
+    now = app.at("now")[::-1]
+    app.until(lambda screen: np.abs(screen[now] - before).max() > 8, MIDDLE)
+    assert not any(name == "Fill all the same" for _, name in app.boxes())
+    app.keys("ctrl+z")  # what drew the ring is the last step
+    app.until(lambda screen: (np.abs(screen[150:450, 440:680] - app.outlined[90:390, 170:410]).max(axis=2) > 8).any())
 
 
 def test_what_is_gone_round_is_filled_and_a_texture_that_is_dropped_into_a_region(app):

@@ -31,7 +31,7 @@ DOCKS = {
     "tools": Dock("Tools", "What the hand does", 85.0, 85.0),
     "brushes": Dock("Brushes", "Presets, with pictures", 260.0, 200.0, "Brushes", fills=True),
     "settings": Dock("Brush settings", "What the brush in hand is set to", 560.0, 200.0),
-    "colour": Dock("Colour", "Wheel, sliders, palettes", 352.0, 120.0, "Colour", "right"),
+    "colour": Dock("Colour", "Wheel, sliders, palettes", 362.0, 120.0, "Colour", "right"),
     "ink": Dock("Ink mixer", "Textures in the paint", 148.0, 76.0, "Ink mixer", "right"),
     "layers": Dock("Layers", "The stack of layers", 300.0, 204.0, "Layers", "right", fills=True),
 }

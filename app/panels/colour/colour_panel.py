@@ -16,7 +16,7 @@ from app.panels.colour.gradient_slider import gradient_slider
 from app.panels.colour.palette_section import draw_palette
 from app.panels.colour.wheel_sides import draw_left, draw_right
 from app.panels.controls import widgets as w
-from app.tools.filling_gestures import drop_colour
+from app.panels.controls.dragged_off import carry_colour
 
 _STOPS = 18
 _HISTORY_ACROSS = 12
@@ -92,12 +92,12 @@ class ColourPanel:
         wide = imgui.get_content_region_avail().x
         hint = "The colour you paint with; drag it into a region to fill that"
         w.swatch("now", desk.hand.colour, hint, (wide * 0.26, height))
-        _dragged(desk, desk.hand.colour)
+        carry_colour(desk, desk.hand.colour)
         imgui.same_line()
         hint = keyed("The other colour; click to swap", "swap")
         if w.swatch("other", desk.hand.other_colour, hint, (wide * 0.16, height)):
             desk.hand.swap()
-        _dragged(desk, desk.hand.other_colour)
+        carry_colour(desk, desk.hand.other_colour)
         imgui.same_line()
         if w.icon_button("swap", icons.SWAP, tip("swap")):
             desk.hand.swap()
@@ -126,26 +126,13 @@ class ColourPanel:
                 colour = desk.hand.colours[i]
                 if w.swatch(f"past{i}", colour, "Painted with before", (side, side)):
                     desk.hand.colour = colour
-                _dragged(desk, colour)
+                carry_colour(desk, colour)
             else:
                 corner = imgui.get_cursor_screen_pos()
                 imgui.dummy(ImVec2(side, side))
                 end = ImVec2(corner.x + side, corner.y + side)
                 imgui.get_window_draw_list().add_rect_filled(corner, end, theme.packed(theme.look.grid), 2.0)
         imgui.pop_style_var(2)
-
-
-def _dragged(desk: Desk, rgb: RGB) -> None:
-    """Takes the patch just drawn along with the pointer; where that lets it go on the canvas, it fills the region."""
-    at, (left, top, right, bottom) = imgui.get_mouse_pos(), desk.free_area()
-    if not (left <= at.x < right and top <= at.y < bottom):
-        return
-    if imgui.is_item_deactivated():
-        drop_colour(desk, rgb, at.x, at.y)
-    elif imgui.is_item_active():
-        painter, radius = imgui.get_foreground_draw_list(), 9.0 * desk.scale
-        painter.add_circle_filled(at, radius, theme.packed(rgb))
-        painter.add_circle(at, radius, theme.packed((1.0, 1.0, 1.0)), 0, 1.5 * desk.scale)
 
 
 @lru_cache(maxsize=12)

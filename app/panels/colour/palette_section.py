@@ -11,6 +11,7 @@ from app.desk.holding.palette_making import ask_palette_of_view
 from app.desk.holding.palette_shelf import palette_to_write, show_palette, shown_palette
 from app.language import said
 from app.panels.controls import widgets as w
+from app.panels.controls.dragged_off import carry_colour
 from engine.files.swatches.colour_list import ColourList
 
 _ACROSS = 12
@@ -81,6 +82,7 @@ def _swatches(desk: Desk, palette: ColourList) -> None:
         imgui.set_cursor_screen_pos(at)
         if imgui.invisible_button(f"swatch {i}", ImVec2(side, side), imgui.ButtonFlags_.enable_nav):
             desk.hand.colour = rgb
+        carry_colour(desk, rgb)
         w.named(f"swatch {i + 1}")
         w.tooltip(f"{name}\n{to_hex(rgb)}" if name else to_hex(rgb))
     imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + rows * (side + gap) - gap))

@@ -16,6 +16,7 @@ from app.desk.holding.kept_desk import change_kept
 from app.desk.holding.wheel_record import WheelSet
 from app.language import said
 from app.panels.controls import widgets as w
+from app.panels.controls.dragged_off import carry_colour
 
 _WIDEST = 1.25  # of a control's height: a shade
 _BARE = (1.0, 1.0, 1.0)  # what a painting without paper is painted on
@@ -62,6 +63,7 @@ def draw_right(desk: Desk, tall: float, wide: float) -> RGB | None:
             imgui.set_cursor_screen_pos(at)
             if imgui.invisible_button(f"shade {column} {i}", ImVec2(across, down), imgui.ButtonFlags_.enable_nav):
                 picked = rgb
+            carry_colour(desk, rgb)
             w.named(f"{'duller' if column else 'shade'} {i + 1}")
             w.tooltip(f"{_word(column, i)}\n{to_hex(rgb)}")
             painter.add_rect_filled(at, end, theme.packed(rgb), 2.0)

@@ -14,6 +14,7 @@ from app.desk.desk import Desk
 from app.language import said
 from app.panels.controls import texture_rows
 from app.panels.controls import widgets as w
+from app.panels.controls.dragged_off import is_let_go, over_canvas
 from app.tools.filling_gestures import drop_texture
 from engine.brush.parts import Component, Surface
 from engine.brush.settings import Brush
@@ -115,12 +116,10 @@ def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
 def _dragged(desk: Desk, name: str) -> bool:
     """Takes the picture of the texture just drawn along with the pointer; True where that lets it go on the canvas,
     whose region it fills."""
-    at, (left, top, right, bottom) = imgui.get_mouse_pos(), desk.free_area()
-    low, high = imgui.get_window_pos(), imgui.get_window_pos() + imgui.get_window_size()
-    outside = not (low.x <= at.x < high.x and low.y <= at.y < high.y)
-    if not outside or not (left <= at.x < right and top <= at.y < bottom):
+    if not over_canvas(desk):
         return False
-    if imgui.is_item_deactivated():
+    at = imgui.get_mouse_pos()
+    if is_let_go():
         pictured = any(
             row.name == texture_rows.texture_kind(desk, name) and row.pictured for row in desk.known.tables.kinds
         )
