@@ -6,10 +6,12 @@ Where the system allows it the file has no name, so that nothing is left of it h
 from __future__ import annotations
 
 import atexit
+import shutil
 import tempfile
 import threading
 import zlib
 from collections import deque
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import IO
@@ -19,6 +21,7 @@ from engine.keeping.state_folder import state_folder
 
 _FOLDER = "spill"
 _LEAST = 512  # bytes that a piece takes of the file
+_SPARE = 4 << 30  # bytes of the disk that are left to others by what can be made again
 PLACE_OVERHEAD = 350  # bytes of memory in which it is told where a piece lies, roughly
 
 
@@ -87,6 +90,14 @@ class Spill:
             place = self._places[at] = _Place(spilled, self._tell)
             place.at, place.size = at, spilled.size
         return spilled
+
+    def put_spare(self, piece: bytes) -> Spilled | None:
+        """As `put`, of what can be made again: None where the disk has little room for others."""
+        with suppress(OSError):
+            folder = spill_folder() if self._folder is None else self._folder
+            if shutil.disk_usage(folder).free >= _SPARE:
+                return self.put(piece)
+        return None
 
     def piece(self, at: int, size: int) -> bytes:
         """Returns what lies at a place.  OSError if it cannot be read."""

@@ -36,21 +36,30 @@ class Recent(Generic[Made]):
             self._drop(key)
             self._made[key] = made, nbytes
             self._held += nbytes
-            self._evict(self._most())
+            forgotten = self._evict(self._most())
+        self._let_go(forgotten)
 
     def shrink(self, by: int) -> None:
         """Forgets so many bytes, as far as there are any."""
         with self._lock:
-            self._evict(max(self._held - by, self._least))
+            forgotten = self._evict(max(self._held - by, self._least))
+        self._let_go(forgotten)
 
     @property
     def held(self) -> int:
         """Returns the bytes that are held now."""
         return self._held
 
-    def _evict(self, most: int) -> None:
+    def _evict(self, most: int) -> list[tuple[Hashable, Made]]:
+        forgotten = list[tuple[Hashable, Made]]()
         while self._held > most and len(self._made) > 1:
-            self._drop(next(iter(self._made)))
+            key, (made, _) = next(iter(self._made.items()))
+            forgotten.append((key, made))
+            self._drop(key)
+        return forgotten
+
+    def _let_go(self, forgotten: list[tuple[Hashable, Made]]) -> None:
+        """Does nothing more with what is forgotten for want of room."""
 
     def forget(self, key: Hashable) -> None:
         """Forgets what nobody asks for any more."""

@@ -89,13 +89,16 @@ def _studio(send: Callable[[Result], None], post: Callable[[Request], None], pos
     preparing = Preparing()
     preparing.want(PLAIN_PAINT, soon=True)  # its processes load while the studio does
 
+    from engine.keeping.spill import spill
     from engine.studio.filing.beginning import begun
     from engine.studio.held.holding import Holding
     from engine.studio.preparing.waiting import Waiting
     from engine.studio.studio import Studio  # here, on the thread: it loads numba
+    from engine.texture.expression.kept_squares import SQUARES
 
     if posts is not None:
         posts.is_compiling = lambda: preparing.busy
+    SQUARES.put = spill().put_spare
     studio = Studio(send, post, posts, begun(send))
     studio.holding = Holding(studio.easel)
     return Waiting(studio, preparing, send)
