@@ -246,12 +246,15 @@ def _add_texture_band(
     first, last = band.y0 - rect.y0, band.y1 - rect.y0
     for i, ink in enumerate(inks):
         plane = COLOURS + 3 * i
-        if level <= ink.base or not kernels.any_nonzero(amplitudes, plane, plane + 3, first, last):
+        if level <= ink.base:
             continue
-        detail = ink.bandpass(level, band)
-        if detail is not None:
-            onto = out[_ALPHA:] if getattr(ink, "on_alpha", False) else out  # whose other two planes are 0
-            kernels.add_texture(onto, amplitudes, plane, np.ascontiguousarray(detail, np.float32), first, unit)
+        top, bottom, left, right = kernels.extent_in_rows(amplitudes, plane, plane + 3, first, last)
+        if top < bottom:
+            detail = ink.bandpass(level, Rect(rect.x0 + left, rect.y0 + top, rect.x0 + right, rect.y0 + bottom))
+            if detail is not None:
+                onto = out[_ALPHA:] if getattr(ink, "on_alpha", False) else out  # whose other two planes are 0
+                part = np.ascontiguousarray(detail, np.float32)
+                kernels.add_texture(onto, amplitudes, plane, part, top, left, unit)
 
 
 def _known(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:

@@ -15,11 +15,12 @@ _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 _STEEPEST = np.float32(8.0)  # the residual up to which strokes can amplify detail, again and again
 
 
-@or_plain(plainly.any_nonzero)
+@or_plain(plainly.extent_in_rows)
 @kernel
-def any_nonzero(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> bool:
-    """Tells whether any value of planes [first_plane, last_plane), rows [first, last) of `data` (C, h, w) is not
-    zero."""
+def extent_in_rows(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> Extent:
+    """Returns where values of planes [first_plane, last_plane), rows [first, last) of `data` (C, h, w) are not zero:
+    rows and columns from, to; (0, 0, 0, 0) where all are."""
+    top, bottom, left, right = last, first, data.shape[2], 0
     for c in range(first_plane, last_plane):
         for y in range(first, last):
             row = data[c, y]
@@ -27,8 +28,16 @@ def any_nonzero(data: np.ndarray, first_plane: int, last_plane: int, first: int,
             for i in range(row.size):
                 found |= np.int32(row[i] != _ZERO)
             if found:
-                return True
-    return False
+                top, bottom = min(top, y), max(bottom, y + 1)
+                x = 0
+                while x < left and row[x] == _ZERO:
+                    x += 1
+                left = min(left, x)
+                x = row.size
+                while x > right and row[x - 1] == _ZERO:
+                    x -= 1
+                right = max(right, x)
+    return (top, bottom, left, right) if top < bottom else (0, 0, 0, 0)
 
 
 @or_plain(plainly.clamp_alpha)
@@ -61,15 +70,17 @@ def add_residual(
 
 @kernel
 def add_texture(
-    out: np.ndarray, amplitudes: np.ndarray, plane: int, detail: np.ndarray, first: int, step: np.float32
+    out: np.ndarray, amplitudes: np.ndarray, plane: int, detail: np.ndarray, top: int, left: int, step: np.float32
 ) -> None:
-    """Colour rows of `out` (C, h, w) from row `first` += ink * detail, rounded to the grid of `step`; `detail` float32
-    (1 or 3, rows, w), the ink's planes are those of `amplitudes` from `plane` (it may be `out` itself)."""
+    """Colour of `out` (C, h, w) from row `top` and column `left` += ink * detail, rounded to the grid of `step`;
+    `detail` float32 (1 or 3, rows, columns), the ink's planes are those of `amplitudes` from `plane` (it may be `out`
+    itself)."""
+    right = left + detail.shape[2]
     for c in range(3):
         source = c if detail.shape[0] == 3 else 0
         for y in range(detail.shape[1]):
-            a = out[c, first + y]
-            ink = amplitudes[plane + c, first + y]
+            a = out[c, top + y, left:right]
+            ink = amplitudes[plane + c, top + y, left:right]
             d = detail[source, y]
             for i in range(a.size):
                 a[i] += snap_to(ink[i] * d[i], step)

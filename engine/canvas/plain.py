@@ -21,9 +21,13 @@ Corner = tuple[int, int]
 Window = tuple[int, ...]
 
 
-def any_nonzero(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> bool:
+def extent_in_rows(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> Extent:
     """Does what the kernel of that name in `kernels` does."""
-    return bool(data[first_plane:last_plane, first:last].any())
+    there = np.any(data[first_plane:last_plane, first:last] != _ZERO, axis=0)
+    rows, columns = np.flatnonzero(there.any(axis=1)), np.flatnonzero(there.any(axis=0))
+    if not rows.size:
+        return 0, 0, 0, 0
+    return first + int(rows[0]), first + int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1
 
 
 def clamp_alpha(out: np.ndarray, first: int, last: int) -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from engine.brush.settings import Brush
+from engine.brush.settings import Brush, Component
 from engine.canvas import kernels
 from engine.canvas.composite import composite
 from engine.canvas.dither import NO_DITHER
@@ -18,6 +18,7 @@ from engine.numeric.grid import FINE_STEP
 from engine.numeric.stand_in import Kernel, or_interpreted, or_plain
 from engine.painting.value import Painting
 from engine.strokes.paint_stroke import LiveStroke
+from engine.texture.rock import Rock
 
 STROKES = (
     Brush(radius=12.0),
@@ -92,6 +93,37 @@ def test_extents_of_nothing():
         used = np.empty((2, 2), np.int32)
         assert counting.extent.compiled(data, used[0]) == counting.extent.plain(data, used[1])
         assert np.array_equal(used[0], used[1])
+
+
+def test_where_ink_lies_in_some_rows():
+    rng = np.random.default_rng(3)
+    for share in (0.0, 0.002, 0.01, 0.1, 1.0):
+        for _ in range(20):
+            data = np.where(rng.random((9, 12, 31)) < share, 1.5, rng.choice([0.0, -0.0])).astype(np.float32)
+            first, last = sorted(rng.integers(0, 13, 2).tolist())
+            found = kernels.extent_in_rows.plain(data, 4, 7, first, last)
+            assert kernels.extent_in_rows.compiled(data, 4, 7, first, last) == found
+            ys, xs = np.nonzero(data[4:7, first:last].any(axis=0))
+            expected = (first + ys.min(), first + ys.max() + 1, xs.min(), xs.max() + 1) if ys.size else (0, 0, 0, 0)
+            assert found == expected
+
+
+def test_a_texture_is_worked_out_only_where_its_ink_lies(monkeypatch):
+    asked, bandpass = [], Rock.bandpass
+
+    def noted(rock, level, rect):
+        asked.append(rect)
+        return bandpass(rock, level, rect)
+
+    monkeypatch.setattr(Rock, "bandpass", noted)
+    live = LiveStroke(Painting(), 0, (0, 0), Brush(radius=6.0, hardness=1.0, ink=(Component("rock", 0.6, "#d0b090"),)))
+    live.add(np.array([[100.0, 100.0, 1.0], [140.0, 112.0, 1.0]]))
+    painting = live.commit()
+    asked.clear()
+    whole = composite(painting.root, 2, Rect(0, 0, 1024, 1024), layer_planes)
+    assert 0 < sum(rect.area for rect in asked) < 1024 * 32  # two levels of some 60 x 30 pixels of level 0
+    part = Rect(390, 380, 602, 490)
+    assert np.array_equal(composite(painting.root, 2, part, layer_planes), whole[:, 380:490, 390:602])
 
 
 def test_a_kernel_is_looked_for_again_after_a_while(monkeypatch):
