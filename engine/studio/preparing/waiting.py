@@ -14,6 +14,7 @@ from engine.kernel_cache import NotCompiled, refusing
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole
+from engine.studio.grower import Grower
 from engine.studio.journalled.tend_request import Tend
 from engine.studio.preparing.job_queue import SEEN_DETAIL, Job, job_of
 from engine.studio.preparing.processes import Preparing
@@ -120,19 +121,10 @@ class Waiting:
         if self._examples is not None and self._preparing.ready(self._examples):
             self._examples = None
             self._studio.do(q.GetReady())
-        self._hold()
+        _hold(self._studio.grower, self._preparing)
         if not self._line.stalled:
             self._swatches.tell()
             self._line.again()
-
-    def _hold(self) -> None:
-        """What grows waits where a process is asked for its kernels: a painting may be opened that is still to grow."""
-        grower = self._studio.grower
-        if grower.held or (self._preparing.busy and grower.pending):
-            lacks = not self._preparing.ready(_GROWTH)
-            if lacks and not grower.held:
-                self._preparing.want((_GROWTH,), soon=True)
-            grower.held = lacks
 
     @property
     def _seen(self) -> int:
@@ -159,3 +151,12 @@ class Waiting:
             return True
         self._unseen = None if looks else self._unseen
         return done
+
+
+def _hold(grower: Grower, preparing: Preparing) -> None:
+    """What grows waits where a process is asked for its kernels: a painting may be opened that is still to grow."""
+    if grower.held or (preparing.busy and grower.pending):
+        lacks = not preparing.ready(_GROWTH)
+        if lacks and not grower.held:
+            preparing.want((_GROWTH,), soon=True)
+        grower.held = lacks
