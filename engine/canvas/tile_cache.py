@@ -150,17 +150,11 @@ class TileCache:
             self._raised.clear()
             self._held = 0
 
-    def thin(self, to: int) -> None:
-        """Evicts tiles until these take at most so many bytes; what commits left of coarser levels stays, by which the
-        tiles that a stroke changes next are soon there."""
+    def shrink(self, to: int, alone: bool = False) -> None:
+        """Evicts tiles until at most so many bytes are held; `alone`: tiles hold them, and what commits left of coarser
+        levels stays, by which the tiles that a stroke changes next are soon there."""
         with self._lock:
-            while self._held > to and self._levels:
-                self._evict_from(_farthest(self._levels, self.level))
-
-    def shrink(self, to: int) -> None:
-        """Evicts tiles until at most so many bytes are held."""
-        with self._lock:
-            if self.held > to:
+            if self.held > to and not alone:
                 self.front.clear()
                 self._raised.clear()
             while self._held > to and self._levels:

@@ -61,7 +61,7 @@ class LandMaker(Owned):
                 break
             self._open.popleft()
         if not self._open and self._easel.live is None:
-            self._easel.session.cache.thin(self._others + LAND_CACHE)
+            self._easel.session.cache.shrink(self._others + LAND_CACHE, alone=True)
 
     def _ask(self, request: AskLand) -> None:
         begins = not self._wanted
