@@ -27,6 +27,7 @@ _ALPHA = COLOURS - 1
 _CLOSE = 8  # levels above a rectangle that are gone through one by one
 _CLIMB = 3  # levels up to what is kept of a coarse level for all that lies below it
 _SQUARES = 6  # of these above one another: from there on what is kept is sparser (`from_afar`)
+_SQUARE_BYTES = 4 << 20  # of its planes, at most
 _LENT = 4  # tiles that the cache holds as parts of one array, at most
 _BAND = 64  # rows worked on at a time, so that a band of all planes stays in the cache of the processor
 _BAND_BYTES = 9 << 16  # of few planes so many rows more: half of a tile of the screen, also of one beside the grid
@@ -93,7 +94,8 @@ def _evaluated(
         known, value = _known(pyramid, k, parents, cache)
         if known:
             break
-        around = Square.of(k, parents) if cache is not None and squares and _climbed(level, k, squares) else None
+        wanted = cache is not None and squares and _climbed(level, k, squares)
+        around = _square_at(pyramid, k, parents) if wanted else None
         if cache is not None and around is not None:
             above = around.rect
             known, value = cache.get(pyramid, around)
@@ -115,6 +117,20 @@ def _evaluated(
     return above, value
 
 
+def _square_at(pyramid: Pyramid, level: int, rect: Rect) -> Square | None:
+    """Returns a square of a level that holds a rectangle; None where it is too large for one, or so much ink lies there
+    that none is kept: each stroke would have all of it copied."""
+    around = Square.of(level, rect)
+    return None if around is None or is_crowded(pyramid, level, around.rect, _SQUARE_BYTES) else around
+
+
+def is_crowded(pyramid: Pyramid, level: int, rect: Rect, most: int) -> bool:
+    """Tells whether so many inks are stored in a rectangle of a level that its planes would take more bytes than
+    `most`."""
+    found = max((len(record.inks) for _, record in pyramid.records(level, rect)), default=0)
+    return 4 * rect.area * (COLOURS + 3 * found) > most
+
+
 def _climbed(level: int, k: int, squares: int) -> bool:
     """Tells whether squares of level `k` are kept above a rectangle of a level.  Those above squares are kept at some
     levels only: one row of them serves all levels that are looked at."""
@@ -128,7 +144,7 @@ def _nothing_below(pyramid: Pyramid, level: int, column: Column, cache: TileCach
     if finest is None or level - finest < _CLIMB:
         return False
     above = column.at(level - finest)
-    around = Square.of(finest, above)
+    around = _square_at(pyramid, finest, above)
     return around is not None and _is_empty(pyramid, around, _square(pyramid, around, cache, squares - 1), above)
 
 
@@ -169,7 +185,7 @@ def step(
     """Returns one level down: v of the even `rect` from its parents, which lie at `parent_at`; without the ink that
     adds no texture down to the level `finest`, where that is given, and without what ink adds where not `textured`."""
     stored = ((key, effective(pyramid, key, record)) for key, record in pyramid.records(level, rect))
-    cut = ((key, _within(key, record, rect)) for key, record in stored)
+    cut = ((key, _within(key, record, rect, finest)) for key, record in stored)
     records = [(key, record) for key, record in cut if record is not None]
     if parent is None and not records:
         return None
@@ -198,8 +214,9 @@ def step(
     return without_empty_inks(Planes(out, inks))
 
 
-def _within(key: TileKey, record: Record, rect: Rect) -> Record | None:
-    """Returns a record, of one of many inks only the part that lies in a rectangle: most of them do not."""
+def _within(key: TileKey, record: Record, rect: Rect, finest: int | None) -> Record | None:
+    """Returns a record, of one of many inks only the part that lies in a rectangle: most of them do not; `finest`: and
+    of these those that add texture down to this level."""
     held = record.sheets
     if held is None:
         return record
@@ -207,8 +224,7 @@ def _within(key: TileKey, record: Record, rect: Rect) -> Record | None:
     inner = Rect(rect.x0 - x, rect.y0 - y, rect.x1 - x, rect.y1 - y).intersect(record.rect)
     if inner.empty:
         return None
-    inks = held.within(inner)
-    data = held.over(inner, inks, held.kind)
+    inks, data = held.within_of(inner, finest)
     data.flags.writeable = False  # as those of other records are: so the kernel is compiled once
     return Record(inner, data, inks, record.depth)
 

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from engine.canvas.evaluate import evaluate, evaluate_sparse, shown
+from engine.canvas.evaluate import evaluate, evaluate_sparse, is_crowded, shown
 from engine.canvas.growth import Growth, meets, over
 from engine.canvas.layers import Layer
 from engine.canvas.store import Pyramid
@@ -20,6 +20,7 @@ from engine.texture.planes import COLOURS, Planes
 _FEW = 4  # squares that are worked out at once
 _FULL = 1.34  # times as large a rectangle may be as what is worked out of it
 _SCREEN_TILE = 2 * TILE  # pixels along a side of what a tile of the screen shows, at most, that lies elsewhere
+_CROWDED_BYTES = 96 << 20  # of the planes of a rectangle, from which on its ink is not worked out for the screen
 _WORTH = 48 * 48  # pixels of a rectangle from which on whole tiles are worked out for it
 
 
@@ -38,9 +39,18 @@ def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None =
     if cache is None:
         paint = shown(layer.pyramid, level, rect)
     else:
-        found = evaluate_sparse(layer.pyramid, level, rect, cache, lent=True)
+        found = _seen(layer.pyramid, level, rect, cache)
         paint = None if found is None else found.rgba
     return covered(paint, layer.growth, level, rect)
+
+
+def _seen(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache) -> Planes | None:
+    """Returns the values of a rectangle, which the cache keeps; but where very many inks meet, as those of a thousand
+    strokes do in a tile of a coarse level, colour and alpha alone, which it does not."""
+    if not is_crowded(pyramid, level, rect, _CROWDED_BYTES):
+        return evaluate_sparse(pyramid, level, rect, cache, lent=True)
+    found = shown(pyramid, level, rect)
+    return None if found is None else Planes(found)
 
 
 def kept_planes(layer: Layer, level: int, rect: Rect, cache: TileCache) -> np.ndarray | None:
@@ -59,7 +69,7 @@ def kept_planes(layer: Layer, level: int, rect: Rect, cache: TileCache) -> np.nd
         if not any(cache.view(pyramid, mark)[0] for mark in inner):
             return covered(_by_itself(pyramid, Clip(level, rect), inner, cache), layer.growth, level, rect)
     for block in _blocks([key for key, (known, _) in found.items() if not known]):
-        whole = evaluate_sparse(pyramid, level, block, cache, lent=True)
+        whole = _seen(pyramid, level, block, cache)
         for key in block.tiles(level):
             if key in found:
                 found[key] = True, None if whole is None else whole.cut(*key.rect.slices(block))

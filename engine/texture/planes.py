@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, lru_cache
@@ -11,9 +12,12 @@ import numpy as np
 
 from engine.texture.record import Instance
 
+_Order = tuple[Any, ...]  # of a key, by which keys are compared
 COLOURS = 4  # red, green, blue, alpha
 _NONE = -1, -1, -1
 _FEW = 32  # planes that are copied one by one
+_INSERTED = 8  # such a part of a stack, at most, is put into it one by one
+_ORDERED = 1 << 13  # keys, and tuples within them, whose order is kept: of a stroke's three inks the line is one
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -40,7 +44,7 @@ class Planes:
 
 
 def merged(*sets: Iterable[Instance]) -> tuple[Instance, ...]:
-    """Returns the union of several sets of ink instances, sorted by key."""
+    """Returns the union of several sets of ink instances, sorted by key, as each of the sets is."""
     stacks = [s for s in map(tuple, sets) if s]
     if not stacks:
         return ()
@@ -48,18 +52,40 @@ def merged(*sets: Iterable[Instance]) -> tuple[Instance, ...]:
     if all(s is first or s == first for s in stacks):
         return first
     largest = max(stacks, key=len)
-    known = set(map(id, largest))  # of many inks, most often one stack has all: to hash and to sort them takes longer
-    if all(known.issuperset(map(id, s)) for s in stacks):
+    known = set(map(id, largest))  # of many inks, most often one stack has nearly all: to hash and to sort them, whose
+    # keys may be long, takes longer
+    others = {id(ink): ink for s in stacks if s is not largest for ink in s if id(ink) not in known}
+    if not others:
         return largest
-    return tuple(sorted({ink for s in stacks for ink in s}, key=lambda ink: sort_key(ink.key)))
+    if len(others) * _INSERTED > len(largest):
+        return tuple(sorted({ink for s in stacks for ink in s}, key=_order))
+    return _with_others(largest, others.values())
 
 
-@lru_cache(4096)
-def sort_key(key: object) -> tuple[Any, ...]:
+def _with_others(sorted_inks: tuple[Instance, ...], others: Iterable[Instance]) -> tuple[Instance, ...]:
+    """Returns sorted inks and a few others, each at its place, but those that are equal to one that is there."""
+    found = list(sorted_inks)
+    for ink in others:
+        at = bisect_left(found, _order(ink), key=_order)
+        if at == len(found) or found[at] != ink:
+            found.insert(at, ink)
+    return tuple(found)
+
+
+def _order(ink: Instance) -> _Order:
+    return sort_key(ink.key)
+
+
+def sort_key(key: object) -> _Order:
     """Orders keys that mix strings, numbers and tuples."""
     if isinstance(key, tuple):
-        return (2, *(sort_key(part) for part in key))
+        return _sort_parts(key)
     return (1, key) if isinstance(key, str) else (0, key)
+
+
+@lru_cache(_ORDERED)
+def _sort_parts(key: tuple[object, ...]) -> _Order:
+    return (2, *map(sort_key, key))
 
 
 @cache

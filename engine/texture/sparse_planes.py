@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from bisect import insort
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import chain, compress
 
 import numpy as np
 from isal import isal_zlib
@@ -53,9 +54,10 @@ class SparseSheet:
     @property
     def data(self) -> np.ndarray:
         """Gives the planes, (c, h, w) read-only: int16 where that holds them, else int32."""
-        if not isinstance(self.held, bytes):
-            return self.held
-        told = np.frombuffer(isal_zlib.decompress(self.held), np.int16 if self.most < 1 << 15 else np.int32)
+        held = self.held
+        if not isinstance(held, bytes):
+            return held
+        told = np.frombuffer(isal_zlib.decompress(held), np.int16 if self.most < 1 << 15 else np.int32)
         return told.reshape(-1, self.rect.height, self.rect.width)
 
     def pack(self) -> None:
@@ -66,14 +68,18 @@ class SparseSheet:
             if len(packed) * _LESS <= plain.nbytes:
                 object.__setattr__(self, "held", packed)
 
-    def paste(self, out: np.ndarray, rect: Rect) -> None:
-        """Writes what lies in `rect` into planes (c, h, w) over it."""
-        own_x, own_y, right, bottom = self.rect  # by numbers: of many inks there are as many sheets
+    def paste(self, out: np.ndarray, first: int, rect: Rect) -> None:
+        """Writes what lies in `rect` into planes (c, h, w) over it, from the plane `first` on."""
+        left, top, right, bottom = self.rect  # by numbers: of many inks there are as many sheets
         x, y, x1, y1 = rect
-        left, top, right, bottom = max(own_x, x), max(own_y, y), min(right, x1), min(bottom, y1)
-        if left < right and top < bottom:
-            part = self.data[:, top - own_y : bottom - own_y, left - own_x : right - own_x]
-            out[:, top - y : bottom - y, left - x : right - x] = part
+        data = self.data
+        last = first + len(data)
+        if x <= left and y <= top and right <= x1 and bottom <= y1:
+            out[first:last, top - y : bottom - y, left - x : right - x] = data
+        elif left < x1 and x < right and top < y1 and y < bottom:
+            x0, y0, x1, y1 = max(left, x), max(top, y), min(right, x1), min(bottom, y1)
+            part = data[:, y0 - top : y1 - top, x0 - left : x1 - left]
+            out[first:last, y0 - y : y1 - y, x0 - x : x1 - x] = part
 
     def replaced(self, data: np.ndarray, rect: Rect) -> SparseSheet | None:
         """Returns it with `data` in place of what lies in `rect`."""
@@ -84,7 +90,7 @@ class SparseSheet:
             out = own.copy()
         else:
             out = np.zeros((len(own), whole.height, whole.width), kind)
-            self.paste(out, whole)
+            self.paste(out, 0, whole)
         out[:, *rect.slices(whole)] = data
         edges = out[:, 0], out[:, -1], out[:, :, 0], out[:, :, -1]
         if kind is np.int32 or not all(edge.any() for edge in edges):  # it may be smaller, in one way or the other
@@ -100,6 +106,8 @@ class SparsePlanes:
     rect: Rect
     colours: SparseSheet | None
     inks: dict[Instance, SparseSheet]  # in the order of their keys
+    _boxes: np.ndarray | None = field(default=None, init=False, repr=False)  # of the sheets, once they are asked for,
+    _size: int = field(default=0, init=False, repr=False)  # and the bytes of all
 
     @classmethod
     def of(cls, rect: Rect, data: np.ndarray, inks: tuple[Instance, ...]) -> SparsePlanes:
@@ -111,16 +119,24 @@ class SparsePlanes:
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
-        return sum(sheet.nbytes for sheet in self._sheets)
+        if not self._size:
+            object.__setattr__(self, "_size", sum([sheet.nbytes for sheet in self._sheets]))
+        return self._size
 
     def alone(self, other: SparsePlanes) -> int:
         """Counts the bytes of what it does not share with another."""
-        shared = {id(sheet) for sheet in other._sheets}
-        return sum(sheet.nbytes for sheet in self._sheets if id(sheet) not in shared)
+        shared = set(map(id, other._sheets))
+        return sum([sheet.nbytes for sheet in self._sheets if id(sheet) not in shared])
+
+    def inks_apart(self, other: SparsePlanes) -> tuple[Instance, ...]:
+        """Returns the inks of which another does not hold the very same."""
+        shared = set(map(id, other.inks.values()))
+        return tuple(ink for ink, sheet in self.inks.items() if id(sheet) not in shared)
 
     def pack(self, before: SparsePlanes | None, which: Callable[[Instance], bool]) -> None:
         """Packs colour, and some of the inks, where `before` has not the very same."""
-        known = {id(sheet) for sheet in before._sheets} if before is not None else set()
+        known = set(map(id, before._sheets)) if before is not None else set()
+        object.__setattr__(self, "_size", 0)
         sheets = [sheet for ink, sheet in self.inks.items() if id(sheet) not in known and which(ink)]
         for sheet in [*sheets, *([self.colours] if self.colours is not None else [])]:
             if id(sheet) not in known:
@@ -150,22 +166,41 @@ class SparsePlanes:
         """Returns what lies in a rectangle of colour and some of the inks: new."""
         out = np.zeros((COLOURS + 3 * len(inks), rect.height, rect.width), kind)
         if self.colours is not None:
-            self.colours.paste(out[:COLOURS], rect)
+            self.colours.paste(out, 0, rect)
         for at, ink in _places(inks):
             sheet = self.inks.get(ink)
             if sheet is not None:
-                sheet.paste(out[at : at + 3], rect)
+                sheet.paste(out, at, rect)
         return out
 
     def within(self, rect: Rect) -> tuple[Instance, ...]:
         """Returns the inks of which something may lie in a rectangle."""
+        return tuple(compress(self.inks, self._meets(rect)))
+
+    def within_of(self, rect: Rect, finest: int | None) -> tuple[tuple[Instance, ...], np.ndarray]:
+        """Returns the inks of which something may lie in a rectangle, and what lies there of colour and of these, in
+        the smaller integer that holds all: new.  `finest`: without ink that adds no texture down to this level."""
+        met = self._meets(rect)
+        if finest is not None:
+            met = [there and ink.base < finest for there, ink in zip(met, self.inks, strict=True)]
+        out = np.zeros((COLOURS + 3 * sum(met), rect.height, rect.width), self.kind)
+        if self.colours is not None:
+            self.colours.paste(out, 0, rect)
+        for n, sheet in enumerate(compress(self.inks.values(), met)):
+            sheet.paste(out, COLOURS + 3 * n, rect)
+        return tuple(compress(self.inks, met)), out
+
+    def _meets(self, rect: Rect) -> list[bool]:
+        """Tells of each ink whether its sheet meets a rectangle."""
         x0, y0, x1, y1 = rect
-        inks = []
-        for ink, sheet in self.inks.items():
-            left, top, right, bottom = sheet.rect
-            if left < x1 and x0 < right and top < y1 and y0 < bottom:
-                inks.append(ink)
-        return tuple(inks)
+        boxes = self._boxes
+        if boxes is None:  # of many inks it takes long to go through all, which each commit does several times
+            told = chain.from_iterable([sheet.rect for sheet in self.inks.values()])
+            boxes = np.fromiter(told, np.int16, 4 * len(self.inks)).reshape(-1, 4)
+            object.__setattr__(self, "_boxes", boxes)
+        left, top, right, bottom = boxes.T
+        found: list[bool] = ((left < x1) & (right > x0) & (top < y1) & (bottom > y0)).tolist()
+        return found
 
     def replaced(
         self, rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], before: np.ndarray

@@ -16,18 +16,19 @@ _WORTH = 4 << 10  # bytes of a record that are worth it
 def pack_laid(record: Record, before: Record | None) -> None:
     """Packs a new record where something lies that a generator laid; `before`: the one whose place it took."""
     held = record.held
-    if not any(map(_is_laid, record.inks)) or held.nbytes < _WORTH:
+    if not stays_packed(record):
         return
-    if isinstance(held, SparsePlanes):
+    if isinstance(held, SparsePlanes):  # whose sheets look by themselves whether they are worth it
         there = None if before is None else before.held
         held.pack(there if isinstance(there, SparsePlanes) else None, _is_laid)
-    else:
+    elif held.nbytes >= _WORTH:
         encode(record, None)
 
 
 def stays_packed(record: Record) -> bool:
     """Tells whether a record of the present that is coded by itself is to stay so."""
-    return any(map(_is_laid, record.inks))
+    kinds = {type(ink): ink for ink in record.inks}  # one of each: there may be thousands
+    return any(map(_is_laid, kinds.values()))
 
 
 def _is_laid(ink: Instance) -> bool:

@@ -60,8 +60,8 @@ def sheets_within(record: Record, other: Record) -> SheetsWithin | None:
     if since is None or since.of() is not record or not isinstance(held, SparsePlanes):
         return None
     beside = sheets_of(other)
-    inks = tuple(ink for ink in held.inks if held.inks[ink] is not beside.inks.get(ink))
-    inks = (*inks, *(ink for ink in beside.inks if ink not in held.inks))
+    inks = held.inks_apart(beside)
+    inks = (*inks, *(ink for ink in beside.inks_apart(held) if ink not in held.inks))
     dtype = np.dtype(held.kind)
     if since.at.area * (COLOURS + 3 * len(inks)) * dtype.itemsize * _LESS > held.alone(beside):
         return None

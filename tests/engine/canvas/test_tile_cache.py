@@ -8,6 +8,8 @@ from strokes import ArrayEdit, random_stroke
 
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import evaluate, evaluate_sparse
+from engine.canvas.layers import Layer
+from engine.canvas.reading import layer_planes
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import Square, TileCache, occupied, parted, without_empty_inks
 from engine.numeric.address import TILE, Rect, TileKey
@@ -47,6 +49,34 @@ def test_what_is_lent_is_what_is_evaluated_also_after_more_was_painted():
     assert np.array_equal(evaluate(pyramid, 0, whole, cache).rgba, before)
     for level in (-4, 0, 3):
         assert np.array_equal(evaluate(after, level, whole, cache).rgba, evaluate(after, level, whole).rgba)
+
+
+def test_of_many_inks_that_meet_far_above_no_commit_keeps_all_their_planes(monkeypatch):
+    """Each would have them copied; records and pixels are those without a cache."""
+    inks, kept = [instance("rock", {"period": 8 + n}, 0, 3) for n in range(80)], []
+    get = TileCache.get
+
+    def noted(self, pyramid, key):
+        known, value = get(self, pyramid, key)
+        kept.append(0 if value is None else value.data.nbytes)
+        return known, value
+
+    monkeypatch.setattr(TileCache, "get", noted)
+    places = np.random.default_rng(7).integers(0, 3000, (len(inks) // 2, 2)).tolist()
+    cache, plain, beside = TileCache(64 << 20), Pyramid(), Pyramid()
+    for n, place in enumerate(places):
+        pair, amount = merged(inks[2 * n : 2 * n + 2]), np.float32(0.25)
+        made = ArrayEdit(0, *place, np.full((12, 20), amount), np.full((10, 12, 20), amount), pair)
+        plain, beside = commit(plain, made), commit(beside, made, cache)
+    assert max(kept) <= 4 << 20
+    for (key, one), (place, other) in zip(plain.all_records(), beside.all_records(), strict=True):
+        assert (key, one.rect, one.inks) == (place, other.rect, other.inks)
+        assert np.array_equal(one.data, other.data)
+    layer = Layer(1, "many", pyramid=beside)
+    monkeypatch.setattr("engine.canvas.reading._CROWDED_BYTES", 1)  # so that only colours are worked out
+    for level, side in ((-5, 900), (-1, 300), (1, 40)):
+        rect = Rect.at(*places[0], side, side).zoomed(level)
+        assert np.array_equal(layer_planes(layer, level, rect, cache), evaluate(plain, level, rect).rgba)
 
 
 def test_tiles_are_contiguous_wherever_they_come_from():

@@ -6,9 +6,11 @@ where nothing lay, for the alpha that then is there.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from weakref import WeakValueDictionary
 
 import numpy as np
 
@@ -89,14 +91,26 @@ def _drawn_once(laid: LaidStroke, level: int, rect: Rect) -> np.ndarray:
     return out
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Generated:
-    """A part of what a stroke laid, as an instance."""
+    """A part of what a stroke laid, as an instance.  Equal ones are the same object: where thousands meet, each stroke
+    looks for each of them many times."""
 
     laid: LaidStroke
     kind: str = COLOURS_OF
 
-    @property
+    def __new__(cls, laid: LaidStroke, kind: str = COLOURS_OF) -> Generated:
+        """Returns the one that is there, if one is."""
+        with _LOCK:
+            found = _THERE.get((laid, kind))
+            if found is None:
+                found = _THERE[laid, kind] = super().__new__(cls)
+            return found
+
+    def __reduce__(self) -> tuple[type[Generated], tuple[LaidStroke, str]]:
+        return Generated, (self.laid, self.kind)
+
+    @cached_property
     def base(self) -> int:
         """Gives the level of the stroke."""
         return self.laid.base
@@ -112,13 +126,6 @@ class Generated:
         laid = self.laid
         pairs = (part for pair in laid.values for part in pair)
         return (self.kind, laid.base, laid.text, laid.unit, laid.seed, laid.start, laid.line.told, *pairs)
-
-    def __hash__(self) -> int:
-        return self._hash
-
-    @cached_property
-    def _hash(self) -> int:
-        return hash((self.laid, self.kind))
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
         """Gives S at a level over a rectangle, as `Instance.appearance`: (4, h, w), or of a cover (1, h, w)."""
@@ -143,6 +150,10 @@ class Generated:
     def part(self, kind: str) -> Generated:
         """Returns another part of the same."""
         return replace(self, kind=kind)
+
+
+_LOCK = threading.Lock()
+_THERE: WeakValueDictionary[tuple[LaidStroke, str], Generated] = WeakValueDictionary()
 
 
 def generated_of_key(key: Sequence[object]) -> Generated:

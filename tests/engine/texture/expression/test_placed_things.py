@@ -1,5 +1,7 @@
 """Things along a stroke: the same pixels whatever else is looked at, sharp at every depth; what is refused."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -53,7 +55,8 @@ def test_a_key_tells_all_of_it():
     made = Generated(laid(TREES), COVER_OF)
     told = [list(part) if isinstance(part, tuple) else part for part in made.key]
     again = table.from_key(told, {})
-    assert again == made
+    assert again is made
+    assert pickle.loads(pickle.dumps(made)) is made
     assert again.key == made.key
     for place, wrong in ((3, 0), (5, [1]), (6, [1, 2]), (6, []), (6, [0.5] * 3), (2, "row(")):
         with pytest.raises(FieldError):
