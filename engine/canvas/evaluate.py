@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from engine.canvas import kernels
-from engine.canvas.attenuate import effective, placed
+from engine.canvas.attenuate import effective
 from engine.canvas.descent import from_afar
 from engine.canvas.store import Pyramid, Record
 from engine.canvas.tile_cache import Square, TileCache, parted, without_empty_inks
@@ -31,6 +31,10 @@ _SQUARE_BYTES = 4 << 20  # of its planes, at most
 _LENT = 4  # tiles that the cache holds as parts of one array, at most
 _BAND = 64  # rows worked on at a time, so that a band of all planes stays in the cache of the processor
 _BAND_BYTES = 9 << 16  # of few planes so many rows more: half of a tile of the screen, also of one beside the grid
+
+# A record, and what it covers of a rectangle: its first row, the one behind its last, its first column and how many
+# there are; and the row and the column of its data that lie there first.
+_Found = tuple[Record, int, int, int, int, int, int]
 
 
 def evaluate(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None = None) -> Planes:
@@ -184,34 +188,57 @@ def step(
 ) -> Planes | None:
     """Returns one level down: v of the even `rect` from its parents, which lie at `parent_at`; without the ink that
     adds no texture down to the level `finest`, where that is given, and without what ink adds where not `textured`."""
-    stored = ((key, effective(pyramid, key, record)) for key, record in pyramid.records(level, rect))
-    cut = ((key, _within(key, record, rect, finest)) for key, record in stored)
-    records = [(key, record) for key, record in cut if record is not None]
+    records = _found(pyramid, level, rect, finest)
     if parent is None and not records:
         return None
-    inks = merged(() if parent is None else parent.inks, *(record.inks for _, record in records))
+    inks = merged(() if parent is None else parent.inks, *(record.inks for record, *_ in records))
     if finest is not None:
         inks = tuple(ink for ink in inks if ink.base < finest)
-    out = np.empty((COLOURS + 3 * len(inks), rect.height, rect.width), np.float32)
+    out, unit = np.empty((COLOURS + 3 * len(inks), rect.height, rect.width), np.float32), pyramid.step
     if parent is None:
         out[:] = 0.0
     sources = plane_map(() if parent is None else parent.inks, inks)
     top = (rect.y0 >> 1) - 1 - parent_at.y0
     left = (rect.x0 >> 1) - 1 - parent_at.x0
-    laid = [(placed(key, record.rect), record, plane_map(record.inks, inks)) for key, record in records]
+    laid = [
+        (record.data, plane_map(record.inks, inks), y0, y1, x, width, row, column)
+        for record, y0, y1, x, width, row, column in records
+    ]
     rows = max(_BAND, _BAND_BYTES // (4 * len(out) * rect.width) & ~1)
     for first in range(0, rect.height, rows):
         last = min(first + rows, rect.height)
         if parent is not None:
-            expand_into(parent.data, top, left, sources, out, first, last, pyramid.step)
-        band = Rect(rect.x0, rect.y0 + first, rect.x1, rect.y0 + last)
-        for at, record, planes in laid:
-            if at.y0 < band.y1 and band.y0 < at.y1:
-                _add_record(out, rect, band, at, record, planes, pyramid.step)
-        if textured:
-            _add_texture_band(out, inks, level, rect, band, pyramid.step)
+            expand_into(parent.data, top, left, sources, out, first, last, unit)
+        for data, planes, y0, y1, x, width, row, column in laid:
+            begin, end = y0 if y0 > first else first, y1 if y1 < last else last
+            if begin < end:
+                kernels.add_residual(out, begin, x, data, row + begin - y0, column, end - begin, width, planes, unit)
+        if textured and inks:
+            band = Rect(rect.x0, rect.y0 + first, rect.x1, rect.y0 + last)
+            _add_texture_band(out, inks, level, rect, band, unit)
         kernels.clamp_alpha(out, first, last)
     return without_empty_inks(Planes(out, inks))
+
+
+def _found(pyramid: Pyramid, level: int, rect: Rect, finest: int | None) -> list[_Found]:
+    """Returns the records of a level that meet a rectangle, as they are now; `finest`: as `_within` has it."""
+    left, top, right, bottom = rect
+    found, waits = [], pyramid.waits is not None
+    for key, stored in pyramid.records(level, rect):  # of a screen thousands: nothing is called that need not be
+        record = effective(pyramid, key, stored) if waits else stored
+        if not isinstance(record.held, np.ndarray):
+            within = _within(key, record, rect, finest)
+            if within is None:
+                continue
+            record = within
+        _, column, row = key
+        x0, y0, x1, y1 = record.rect
+        x0, y0, x1, y1 = x0 + column * TILE - left, y0 + row * TILE - top, x1 + column * TILE, y1 + row * TILE
+        x, y = x0 if x0 > 0 else 0, y0 if y0 > 0 else 0
+        width, last = (x1 if x1 < right else right) - left - x, (y1 if y1 < bottom else bottom) - top
+        if width > 0 and last > y:
+            found.append((record, y, last, x, width, y - y0, x - x0))
+    return found
 
 
 def _within(key: TileKey, record: Record, rect: Rect, finest: int | None) -> Record | None:
@@ -227,17 +254,6 @@ def _within(key: TileKey, record: Record, rect: Rect, finest: int | None) -> Rec
     inks, data = held.within_of(inner, finest)
     data.flags.writeable = False  # as those of other records are: so the kernel is compiled once
     return Record(inner, data, inks, record.depth)
-
-
-def _add_record(
-    out: np.ndarray, rect: Rect, band: Rect, at: Rect, record: Record, planes: np.ndarray, unit: np.float32
-) -> None:
-    part = at.intersect(band)
-    if not part.empty:
-        kernels.add_residual(
-            out, part.y0 - rect.y0, part.x0 - rect.x0,
-            record.data, part.y0 - at.y0, part.x0 - at.x0, part.height, part.width, planes, unit,
-        )  # fmt: skip
 
 
 def add_texture(out: np.ndarray, ink: Planes, level: int, rect: Rect, unit: np.float32) -> None:

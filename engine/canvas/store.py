@@ -282,16 +282,16 @@ class Pyramid:
         if not stored or rect.empty:
             return
         places = rect.within_tiles()
+        x0, y0, x1, y1 = places
         if places.area <= min(len(stored), _FEW):
-            candidates = ((key, stored.get((key.x, key.y))) for key in rect.tiles(level))
+            found = [(x, y) for y in range(y0, y1) for x in range(x0, x1)]
         else:
-            x0, y0, x1, y1 = places
             near = stored if (known := self.blocks(level)) is None else known.within(places)
             found = sorted(at for at in near if x0 <= at[0] < x1 and y0 <= at[1] < y1)
-            candidates = ((TileKey(level, *place), stored.get(place)) for place in found)
-        for key, record in candidates:
+        for place in found:
+            record = stored.get(place)
             if record is not None:
-                yield key, record
+                yield TileKey(level, *place), record
 
     def holds(self, key: TileKey, record: Record) -> bool:
         """Tells whether a record is the one of its tile."""
