@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable
 
@@ -23,6 +24,11 @@ _LONG = 0.1  # seconds of the processor of what is looked at for how much came a
 _FORGOTTEN_PART = 64  # and such a part of it less after each
 _GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
 _GROWN_PART = 16  # or such a part of what it took: a look for what is free takes the longer the more there is
+_CALM = (
+    1.0  # seconds after the last look at the painting until then: what is seen next takes a third less time where it
+)
+# finds pages; but nobody waits for that where
+_SWOLLEN = 24 << 20  # bytes came beside evaluated tiles
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
 _UNFELT = 0.02  # seconds of the processor that a command may take longer for it, which no hand feels,
 _UNFELT_PART = 20  # or such a part of what it took
@@ -59,9 +65,12 @@ class Room(Owned):
         self._since = 0.0  # seconds of this thread's processor until it was asked for last
         self._evicted = 0  # bytes that the cache had evicted when pages were given back at rest
         self._settled = 0  # bytes resident then, or fewer since
+        self._beside: float = math.inf  # of them, but for evaluated tiles
         self._passed = 0  # bytes that came and went with something of late, at most
         self._sparing = False  # whether pages of large arrays go back as soon as they are freed
         self._grown = False  # whether it is time for that again
+        self._swollen = False  # also while somebody looks
+        self._calm = 0.0  # when nobody has looked at the painting for long
         self.aside: Iterable[Callable[[], Iterable[Group]]] = ()  # what tell of other states that somebody keeps
 
     def keep_within(self, root: Group) -> None:
@@ -73,8 +82,9 @@ class Room(Owned):
         most = _most() - min(max(self._passed - _passing(), 0), memory.budget() // _PASSING_PART)
         cache = self._cache  # which grows while a long command is carried out, and nobody looks after it
         cache.budget = min(max(cache.held + most - held, self._least), self._share)
-        self._settled = min(self._settled, held)
+        self._settled, self._beside = min(self._settled, held), min(self._beside, held - cache.held)
         self._grown = held - self._settled > self._worth(_GROWN)
+        self._swollen = held - cache.held - self._beside > _SWOLLEN
         self._spare(held, most)
         if held <= most:
             self.history.tight = False
@@ -143,10 +153,26 @@ class Room(Owned):
         self._looked = now
         return True
 
+    def looked(self) -> None:
+        """Somebody looks at the painting, and may soon look at what lies beside."""
+        self._calm = time.monotonic() + _CALM
+
+    @property
+    def due(self) -> float | None:
+        """Tells when free pages are to be given back, by the monotonic clock; None where that is not to be waited
+        for."""
+        waits = self._free and not self._swollen and time.monotonic() < self._calm
+        return self._calm if waits else None
+
+    @property
+    def _free(self) -> bool:
+        """Tells whether a look for free pages is worth its time."""
+        return self._grown or self._cache.evicted - self._evicted > self._worth(_APART)
+
     @property
     def pending(self) -> int:
         """Counts what is to be made smaller, or given back, while nothing else is to be done."""
-        free = self._grown or self._cache.evicted - self._evicted > self._worth(_APART)
+        free = self._free and (self._swollen or time.monotonic() >= self._calm)
         return self.history.pending + int(self._paging.wanted > 0) + int(free)
 
     def step(self) -> None:
@@ -159,4 +185,5 @@ class Room(Owned):
             self._evicted = self._cache.evicted
             large_pages.forgo()
             memory.give_back()
-            self._settled, self._grown = memory.resident(), False
+            self._settled, self._grown, self._swollen = memory.resident(), False, False
+            self._beside = self._settled - self._cache.held

@@ -163,6 +163,7 @@ class Studio(Owned):
         self.easel.viewer.sight.look(request)
         if request.tiles:
             self.easel.session.cache.look_at(request.tiles[0][0])
+            self.easel.session.room.looked()
 
     @property
     def pending(self) -> int:
@@ -186,14 +187,15 @@ class Studio(Owned):
 
     @property
     def due(self) -> float | None:
-        """When a recording that plays goes on, or something is due beside the journal."""
-        times = (self.filing.due, None if self._answers is None else self._answers.due)
+        """When a recording that plays goes on, or something is due beside the journal, or open work will be there."""
+        times = (self.filing.due, None if self._answers is None else self._answers.due, self.easel.session.room.due)
         return min((time for time in times if time is not None), default=None)
 
     def play(self) -> None:
         """Plays the next piece of a recording, or looks after the journal, whichever is due first."""
         if self._answers is None:
-            self.filing.play()
+            if self.filing.due is not None:
+                self.filing.play()
             return
         if self.filing.due is not None and self.filing.due == self.due:
             with self._answers.timed():

@@ -127,6 +127,26 @@ def test_the_more_is_taken_the_more_may_be_free_before_it_is_given_back(process)
     assert gives_back_at_rest(room, process, 1600, 110)
 
 
+def test_what_is_free_is_left_for_what_is_seen_next_while_somebody_looks(process):
+    cache = TileCache(128 * MEGABYTE)
+    room = Room(cache, History())
+    assert not gives_back_at_rest(room, process, 10, 0)
+    for n in range(20):  # 80 MB of evaluated tiles
+        cache.lend(Pyramid(), TileKey(0, n, 0), Planes(np.zeros((4, 512, 512), np.float32)))
+    room.looked()
+    assert not gives_back_at_rest(room, process, 95, 3)
+    assert room.due == rooms._CALM
+    process.now = rooms._CALM
+    assert room.due is None
+    assert room.pending
+    room.looked()
+    assert not room.pending
+    assert gives_back_at_rest(room, process, 95, 30)  # beside the tiles the process grew too much
+    room.step()
+    assert process.free == 0
+    assert room.due is None
+
+
 def test_a_small_cache_gives_way_too(process):
     cache = TileCache(64 * MEGABYTE)
     for n in range(60):
