@@ -13,7 +13,7 @@ from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.rising.page_places import TilePlace
-from engine.canvas.rising.paged_level import PagedLevel
+from engine.canvas.rising.paged_level import PagedLevel, shared
 from engine.canvas.store import (
     RECORD_OVERHEAD,
     Change,
@@ -214,6 +214,8 @@ def placed_apart(one: Pyramid, other: Pyramid) -> Iterator[tuple[TileKey, Record
         if here is there:
             continue
         for place in _places(_rewritten(one, other, folded, level), (one, other), level):
+            if shared(here, there, place):
+                continue
             record, beside = here.get(place), there.get(place)
             if record is not beside:
                 yield TileKey(level, *place), record, beside

@@ -43,7 +43,8 @@ _SHARE = 2  # so many bytes are coded for each that a step brings, where nobody 
 _TIGHT_PART = 4  # of the limit: what steps may hold while memory is tight
 _TIGHT_AT_ONCE = 1 << 20  # bytes of data that a step has coded then, beside its share
 _LOOKED_AT = 256  # records that wait to be made plain, at each step
-_TIGHT_STEPS = 8  # that are put away on disk with it
+_TIGHT_STEPS = 8  # that are put away on disk with it;
+_MADE_THIN = 2  # and that are made thin: together with all else a stroke must not be felt
 _NOTHING = Painting()
 
 
@@ -208,7 +209,7 @@ class History(Owned):
         elif done.plain and self.held > limit / 2:
             done.code(max(_SHARE * done.entries[-1].held, _AT_ONCE))
         if self.tight:
-            _make_thin(self._lines, _TIGHT_STEPS)
+            _make_thin(self._lines, _MADE_THIN)
         while done.plain and self.held > limit:
             done.code()
         while cap and done.in_memory and done.beyond > cap:

@@ -181,6 +181,17 @@ class PagedLevel(Mapping[TilePlace, R]):
         return PageEditor(self)
 
 
+def shared(one: Mapping[TilePlace, R], other: Mapping[TilePlace, R], place: TilePlace) -> bool:
+    """Tells whether two levels have one record at a place, or none, as far as that is told without reading any."""
+    if not (isinstance(one, PagedLevel) and isinstance(other, PagedLevel)):
+        return False
+    page, beside = one.page_at(place), other.page_at(place)
+    if page is beside or page is None or beside is None:
+        return page is beside
+    (away, changed), (there, altered) = page.held, beside.held
+    return away is there and place not in changed and place not in altered
+
+
 class _Items(ItemsView[TilePlace, R]):
     """Reads page by page."""
 

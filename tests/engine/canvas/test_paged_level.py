@@ -12,7 +12,7 @@ from immutables import Map
 from engine.canvas.rising import page_lines, page_sizes, paged_level
 from engine.canvas.rising.page_places import LEAST_SIDE, NearPlaces, bit_of, page_of, places_in
 from engine.canvas.rising.page_sizes import key_for
-from engine.canvas.rising.paged_level import Page, PagedLevel
+from engine.canvas.rising.paged_level import Page, PagedLevel, shared
 from engine.numeric.address import Rect
 
 FAR = st.sampled_from([-(1 << 40), -(1 << 31), -200, 4000, 1 << 31, 1 << 70])
@@ -83,6 +83,10 @@ def hold_alike(paged, plain, rounds):
         plain, paged = one.finish(), other.finish()
         states.append((plain, paged))
         put_away(paged, number)
+    for (plain, paged), (other, beside) in itertools.pairwise(states):
+        alike = [place for place in {*plain, *other, (5, 5)} if shared(paged, beside, place)]
+        assert all(plain.get(place) == other.get(place) for place in alike)
+        assert all(shared(paged, paged, place) for place in plain)
     for plain, paged in states:  # older states share pages that were put away
         assert dict(paged.items()) == dict(plain.items())
         assert set(paged) == set(plain)
