@@ -73,5 +73,5 @@ def test_it_belongs_to_the_thread_that_made_it():
 
 def test_nothing_is_checked_in_use():
     environment = {name: value for name, value in os.environ.items() if name != "INKFALL_CHECK_THREADS"}
-    done = subprocess.run([sys.executable, "-c", PROBE], env=environment, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", PROBE], env=environment, capture_output=True, text=True, timeout=90)
     assert (done.stdout, done.returncode) == ("4\n", 0), done.stderr

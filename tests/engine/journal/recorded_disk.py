@@ -75,11 +75,11 @@ class Operation:
 
 
 class Recorder:
-    """Takes the place of the functions of `os` that change files; `operations` below `root`, in order, and the seconds
-    of the longest sync."""
+    """Takes the place of the functions of `os` that change files; `operations` below `root`, in order, and when each
+    sync ended, with the seconds that it took."""
 
     def __init__(self, root: Path, monkeypatch) -> None:
-        self.longest_sync = 0.0  # seconds
+        self.syncs: list[tuple[float, float]] = []
         self.root, self.operations, self._files = root, list[Operation](), dict[int, Path]()
         self.real = {name: getattr(os, name) for name in ("open", "close", "write", "fsync", "fdatasync", "ftruncate")}
         self.real |= {name: getattr(os, name) for name in ("rename", "replace", "mkdir", "unlink", "rmdir")}
@@ -118,7 +118,7 @@ class Recorder:
         held = None if path is None or folder else os.pread(descriptor, os.fstat(descriptor).st_size, 0)
         begun = time.monotonic()
         real(descriptor)
-        self.longest_sync = max(self.longest_sync, time.monotonic() - begun)
+        self.syncs.append((time.monotonic(), time.monotonic() - begun))
         if path is not None:
             self._note("sync names" if folder else "sync", path, held)
 

@@ -18,26 +18,33 @@ from engine.studio.filing.recovering import recovered
 
 STROKES = 10
 OLD = 1.0  # seconds, beside those in which the machine stood still and those that a sync took
+TOGETHER = 2.0  # seconds within which several of those may meet one stroke
 
 
 class Lateness:
-    """The longest that a thread waited for its turn while others worked."""
+    """When a thread had its turn while others worked, and how many seconds late."""
 
     def __init__(self) -> None:
-        self.most, self._ended = 0.0, threading.Event()
+        self.turns, self._ended = [], threading.Event()
         self._thread = threading.Thread(target=self._watch, daemon=True)
         self._thread.start()
 
     def _watch(self) -> None:
         begun = time.monotonic()
         while not self._ended.wait(0.01):
-            self.most = max(self.most, time.monotonic() - begun - 0.01)
+            now = time.monotonic()
+            self.turns.append((now, now - begun - 0.01))
             begun = time.monotonic()
 
-    def end(self) -> float:
+    def end(self) -> list[tuple[float, float]]:
         self._ended.set()
         self._thread.join()
-        return self.most
+        return self.turns
+
+
+def most(moments):
+    """The most seconds that came together, of moments in order, each with how many it cost."""
+    return max((sum(cost for at, cost in moments if 0.0 <= when - at <= TOGETHER) for when, _ in moments), default=0.0)
 
 
 def painted(folder, monkeypatch):
@@ -62,7 +69,7 @@ def painted(folder, monkeypatch):
             time.sleep(0.01)
     idle(worker)
     worker.close(60, by_choice=False)
-    return recorder.operations, ups, OLD + recorder.longest_sync + lateness.end()
+    return recorder.operations, ups, OLD + most(recorder.syncs) + most(lateness.end())
 
 
 def cut(folder, operations, ups, old, told, most):
