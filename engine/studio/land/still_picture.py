@@ -86,8 +86,8 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
     first = next(iter(refinement(windows, replace(shot, samples=1), wide, gone, quarter=False)))
     send(StillCome(request.number, frozen(first.picture), _COARSER_FIRST, last=False))
     shot, windows = shown(1, CELLS)
-    give_back()  # what came and went while heights were worked out: as much again as the windows, and more
     found = picture_error(seen, windows, camera, request.size)
+    give_back()  # what came and went while heights and their error were worked out: as much again, and more
     error = None if found is None else (found.rms, found.hard)
     for stage in refinement(windows, shot, wide, gone, quarter=False):
         last = stage.samples == _SAMPLES and (found is None or found.rms <= _FINE)
