@@ -25,6 +25,7 @@ from engine.texture.sparse_planes import OfSheets, SparsePlanes
 
 WAY = 8  # records of a tile that are coded one by the next, then one by itself: so that no way to one is long
 _MADE = 32 << 20  # bytes of data kept that were asked for
+_AT_ONCE = 64  # inks that are compared at once
 _OVERHEAD = 150  # bytes of a coded record's own objects, roughly
 
 
@@ -245,10 +246,28 @@ def _coded_sheets(record: Record, held: SparsePlanes, other: Record | None) -> t
     coloured = base is None or held.colours is not base.colours
     sheets = [held.inks[ink] for ink in inks] + ([held.colours] if coloured and held.colours is not None else [])
     dtype = np.dtype(np.int16 if all(sheet.most < 1 << 15 for sheet in sheets) else np.int32)
-    # wraps round, and back when it is added
-    left = _sheets_over(held, rect, inks, dtype, coloured) - _sheets_over(base, rect, inks, dtype, coloured)
-    coded = CodedSheets(rect, inks, dtype, other, *_packed(left), coloured, record.inks, held.itemsize)
+    edges, packed = _edges(_marked(held, base, rect, inks, coloured)), b""
+    if edges:
+        down, across = _window(edges)
+        part = Rect(rect.x0 + across.start, rect.y0 + down.start, rect.x0 + across.stop, rect.y0 + down.stop)
+        # wraps round, and back when it is added
+        left = _sheets_over(held, part, inks, dtype, coloured) - _sheets_over(base, part, inks, dtype, coloured)
+        packed = isal_zlib.compress(split_bytes(left).data, 1)
+    coded = CodedSheets(rect, inks, dtype, other, edges, packed, coloured, record.inks, held.itemsize)
     return coded, sum(sheet.nbytes for sheet in sheets)
+
+
+def _marked(
+    held: SparsePlanes, base: SparsePlanes | None, rect: Rect, inks: tuple[Instance, ...], coloured: bool
+) -> np.ndarray:
+    """Tells where in a rectangle sheets differ from others, in colour or some inks: bool (h, w).  Some inks at a time:
+    the planes of all of thousands, over a whole tile, would take gigabytes."""
+    marked = np.zeros((rect.height, rect.width), bool)
+    for first in range(0, max(len(inks), 1), _AT_ONCE):
+        some, told = inks[first : first + _AT_ONCE], coloured and first == 0
+        one, other = (_sheets_over(sheets, rect, some, np.dtype(np.int32), told) for sheets in (held, base))
+        marked |= (one != other).any(axis=0)
+    return marked
 
 
 def sheets_of(record: Record) -> SparsePlanes:
@@ -269,12 +288,16 @@ def _sheets_over(
 
 def _packed(left: np.ndarray) -> tuple[int, bytes]:
     """Returns the rows and columns in which planes of integers tell anything, as one number, and these, packed."""
-    marked = np.asarray(left.any(axis=0))
+    edges = _edges(np.asarray(left.any(axis=0)))
+    return edges, isal_zlib.compress(split_bytes(left[:, *_window(edges)]).data, 1) if edges else b""
+
+
+def _edges(marked: np.ndarray) -> int:
+    """Returns the rows and columns that hold all that is marked, (h, w), as one number; 0 where nothing is."""
     rows, columns = np.flatnonzero(marked.any(axis=1)), np.flatnonzero(marked.any(axis=0))
     if not len(rows):
-        return 0, b""
-    edges = _told(int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1)
-    return edges, isal_zlib.compress(split_bytes(left[:, *_window(edges)]).data, 1)
+        return 0
+    return _told(int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1)
 
 
 def _told(top: int, bottom: int, left: int, right: int) -> int:
