@@ -28,6 +28,7 @@ from app.__main__ import main as inkfall  # noqa: E402
 QUALITY = 88
 PREPARED = 900.0  # seconds until all brushes have their pictures, at most
 CALM = 4.0  # seconds for which nothing changes once all is drawn
+BRIGHT = 100  # of 255: paper, on the average
 WHOLE = 60  # notches from one end of a list to the other, at least
 EARTH, ROSE, WATER = "#c2703d", "#c9506e", "#4f7f96"
 PAINTED = ((0.27, 0.26), (0.3, 0.23), (0.36, 0.21)), ((0.62, 0.3), (0.68, 0.34), (0.72, 0.4))  # strokes of a spectrum
@@ -104,6 +105,9 @@ def examples(app: Program) -> None:
     app.wait_for("examples ready")
     app.click("Wash rose")
     scroll(app, "Stabiliser", -4)
+    (left, bottom, *_), right = app.box("Painting", "strip"), app.box("Swap")[2]
+    stroke = slice(bottom - 200, bottom - 20), slice(left + 20, right - 20)
+    app.until(lambda screen: bool(screen[stroke].mean() > BRIGHT), seconds=PREPARED)  # it has grown
 
 
 def light(app: Program) -> None:
