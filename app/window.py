@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -164,7 +165,7 @@ class Window:
         self.router = Router(self.desk, self.layout)
         self.pointers, self._resting = Pointers(handle), Resting()
         address = ctypes.cast(handle, ctypes.c_void_p).value or 0
-        self._callbacks = Callbacks(handle, self.router, self.pace.event, self._catch_up, self._dropped)
+        self._callbacks = Callbacks(handle, self.router, self.pace.event, partial(_before, self), self._dropped)
         backends.glfw_init_for_opengl(address, False)
         backends.opengl3_init("#version 330")
         self.screen = Screen(self.ctx)
@@ -242,7 +243,7 @@ class Window:
         desk, now, spare = self.desk, time.monotonic(), self._guard.spare
         seconds = self.pace.begin(now)
         _resize(self.desk, self.ctx, *glfw.get_framebuffer_size(self.handle))
-        self._catch_up()
+        self._catch_up(self.pointers.events_in_order)
         if came := self.news.take(now):
             self.pace.news(now)
         if self._files is not None and (told := desk.trial.heard(*self.pointers.heard())):
@@ -278,12 +279,12 @@ class Window:
         self._resting.stirs = came or moves or self._drawing.changed
         return moves
 
-    def _catch_up(self, scancode: int | None = None) -> None:
+    def _catch_up(self, events: Callable[[], Sequence[PenEvent]]) -> None:
         """Sees to keys that GLFW has told, and to what the pointer did after them: before the key that it tells of now,
         if there is one, as a stroke ends before what a key does to it."""
         found: Sequence[PenEvent] = ()
         if self.desk.known.presets:  # kept until there is a brush to paint with
-            found = self.pointers.events() if scancode is None else self.pointers.events_before(scancode)
+            found = events()
         with self._guard.spare("on a key"):
             self._callbacks.deliver()
         for event in found:
@@ -377,3 +378,7 @@ class Window:
         imgui.destroy_context()
         glfw.destroy_window(self.handle)
         glfw.terminate()
+
+
+def _before(window: Window, scancode: int | None) -> None:
+    window._catch_up(partial(window.pointers.events_before, scancode))

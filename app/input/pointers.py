@@ -37,10 +37,24 @@ class Pointers:
         found, self._later = [*self._later, *(self._pen.events() if self._pen is not None else [])], []
         return [*self._moused(), *found]
 
-    def events_before(self, scancode: int) -> list[PenEvent]:
-        """Returns what came since the last call and before the key that GLFW tells of now; all that came, where it is
-        not known when a key was pressed: GLFW itself tells everything in its order."""
-        time = self._keys.of(scancode) if self._keys is not None else None
+    def events_in_order(self) -> list[PenEvent]:
+        """Returns what came since the last call, once GLFW has told of the keys that were pressed before it: what pens
+        do is read from a connection of its own, and may be there first.  Not to be called by what GLFW calls."""
+        if self._pen is None or self._keys is None:
+            return self.events()
+        self._later += self._pen.events()
+        if not self._later:
+            return self._moused()
+        last = self._later[-1]
+        glfw.poll_events()  # with each key, what came before it is asked for
+        count = next((i + 1 for i, event in enumerate(self._later) if event is last), 0)
+        found, self._later = self._later[:count], self._later[count:]
+        return [*self._moused(), *found]
+
+    def events_before(self, scancode: int | None) -> list[PenEvent]:
+        """Returns what came since the last call and before the key that GLFW tells of now; all that came, where that is
+        no key, or it is not known when it was pressed: GLFW itself tells everything in its order."""
+        time = self._keys.of(scancode) if self._keys is not None and scancode is not None else None
         if time is None:
             return self.events()
         mouse, found = self._moused(), [*self._later, *(self._pen.events() if self._pen is not None else [])]

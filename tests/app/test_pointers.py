@@ -48,3 +48,25 @@ def test_a_key_parts_what_the_pointer_did_before_it_from_what_it_did_after(monke
     pens.waiting += [PenEvent("move", 5.0, 0.0, time=((begin + 5) % 2**32) / 1000)]
     assert [event.x for event in found.events_before(38)] == [4.0]
     assert [event.x for event in found.events()] == [5.0]
+
+
+def test_keys_that_come_later_than_a_press_after_them_are_told_first(monkeypatch):
+    """Both come over connections of their own: the press may be read while the key is still on its way."""
+    pens, before = Told(), []
+    pens.waiting = [PenEvent("move", 0.0, 0.0, time=0.100), PenEvent("down", 4.0, 0.0, time=0.104)]
+    monkeypatch.setattr(pointers, "GlfwPointer", lambda window: Told())
+    monkeypatch.setattr(pointers, "pen_source", lambda window, driver: pens)
+    monkeypatch.setattr(pointers, "key_times", lambda: SimpleNamespace(of=lambda code: 102))
+    found = pointers.Pointers(None)
+    found.hear_pens()
+
+    def poll():
+        pens.waiting.append(PenEvent("move", 5.0, 0.0, time=0.105))
+        before.extend(event.x for event in found.events_before(65))
+
+    monkeypatch.setattr(pointers.glfw, "poll_events", poll)
+    assert [event.x for event in found.events_in_order()] == [4.0], "what came since then may have keys before it"
+    assert before == [0.0]
+    monkeypatch.setattr(pointers.glfw, "poll_events", lambda: None)
+    assert [event.x for event in found.events_in_order()] == [5.0]
+    assert found.events_in_order() == []
