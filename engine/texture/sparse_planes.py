@@ -41,7 +41,7 @@ class SparseSheet:
         y0, y1, x0, x1 = int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1
         part = data[:, y0:y1, x0:x1]
         most = _most(part)
-        kept = part.astype(np.int16 if most < 1 << 15 else np.int32)
+        kept = part.astype(integers_up_to(most))
         kept.flags.writeable = False
         x, y = corner
         return cls(Rect(x + x0, y + y0, x + x1, y + y1), kept, most)
@@ -57,7 +57,7 @@ class SparseSheet:
         held = self.held
         if not isinstance(held, bytes):
             return held
-        told = np.frombuffer(isal_zlib.decompress(held), np.int16 if self.most < 1 << 15 else np.int32)
+        told = np.frombuffer(isal_zlib.decompress(held), integers_up_to(self.most))
         return told.reshape(-1, self.rect.height, self.rect.width)
 
     def pack(self) -> None:
@@ -84,7 +84,7 @@ class SparseSheet:
     def replaced(self, data: np.ndarray, rect: Rect) -> SparseSheet | None:
         """Returns it with `data` in place of what lies in `rect`."""
         whole = self.rect.union(rect)
-        kind = np.int16 if max(self.most, _most(data)) < 1 << 15 else np.int32
+        kind = integers_up_to(max(self.most, _most(data)))
         own = self.data
         if whole == self.rect and own.dtype == kind:
             out = own.copy()
@@ -149,7 +149,7 @@ class SparsePlanes:
     @property
     def kind(self) -> type[np.signedinteger]:
         """Gives the smaller integer that holds all of it."""
-        return np.int16 if max([sheet.most for sheet in self._sheets]) < 1 << 15 else np.int32
+        return integers_up_to(max([sheet.most for sheet in self._sheets]))
 
     @property
     def itemsize(self) -> int:
@@ -241,6 +241,11 @@ class OfSheets:
     def plain(self) -> SparsePlanes:
         """Returns the planes."""
         raise NotImplementedError
+
+
+def integers_up_to(most: int) -> type[np.signedinteger]:
+    """Returns the smaller integer that holds values up to this."""
+    return np.int16 if most < 1 << 15 else np.int32
 
 
 def _most(data: np.ndarray) -> int:

@@ -21,11 +21,12 @@ from engine.numeric.recent import Recent
 from engine.texture.even_planes import EvenPlanes
 from engine.texture.planes import COLOURS, plane_map
 from engine.texture.record import Instance
-from engine.texture.sparse_planes import OfSheets, SparsePlanes
+from engine.texture.sparse_planes import OfSheets, SparsePlanes, SparseSheet, integers_up_to
 
 WAY = 8  # records of a tile that are coded one by the next, then one by itself: so that no way to one is long
 _MADE = 32 << 20  # bytes of data kept that were asked for
 _AT_ONCE = 64  # inks that are compared at once
+_DENSE = 16 << 20  # bytes of planes over all of their rectangle, from which on sheets are coded one by one
 _OVERHEAD = 150  # bytes of a coded record's own objects, roughly
 
 
@@ -142,6 +143,32 @@ class CodedSheets(CodedData, OfSheets):
         return self.plain().made()
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class WholeSheets(CodedSheets):
+    """The sheets of many inks by themselves, each only as far as anything lies in it.
+
+    `packed`: of each its edges and its largest value, int32, then the values of each, low bytes before high ones;
+    deflated.
+    """
+
+    def _unpacked(self) -> SparsePlanes:
+        """Makes the sheets."""
+        packed = self.packed if isinstance(self.packed, bytes) else self.packed.read()
+        raw, count = np.frombuffer(isal_zlib.decompress(packed), np.uint8), self.coloured + len(self.stack)
+        told, at = raw[: 20 * count].view(np.int32).reshape(count, 5).tolist(), 20 * count
+        sheets = []
+        for number, (x0, y0, x1, y1, most) in enumerate(told):
+            rect, kind = Rect(x0, y0, x1, y1), np.dtype(integers_up_to(most))
+            planes = COLOURS if self.coloured and number == 0 else 3
+            size = planes * rect.area * kind.itemsize
+            data = joined_bytes(raw[at : at + size].reshape(kind.itemsize, -1), kind)
+            data.flags.writeable = False
+            sheets.append(SparseSheet(rect, data.reshape(planes, rect.height, rect.width), most))
+            at += size
+        colours = sheets.pop(0) if self.coloured else None
+        return SparsePlanes(self.rect, colours, dict(zip(self.stack, sheets, strict=True)))
+
+
 RECORDS_MADE: Recent[np.ndarray] = Recent(lambda: _MADE)
 SHEETS_MADE: Recent[SparsePlanes] = Recent(lambda: _MADE)
 
@@ -193,6 +220,8 @@ def encode(record: Record, other: Record | None) -> int:
         other = None
     if isinstance(held, np.ndarray | EvenPlanes):
         coded, taken = _coded(record, other), held.nbytes
+    elif other is None and 4 * record.rect.area * (COLOURS + 3 * len(record.inks)) > _DENSE:
+        coded, taken = _whole_sheets(record, held), held.nbytes
     else:
         coded, taken = _coded_sheets(record, held, other)
     if coded.nbytes >= held.nbytes:
@@ -255,6 +284,17 @@ def _coded_sheets(record: Record, held: SparsePlanes, other: Record | None) -> t
         packed = isal_zlib.compress(split_bytes(left).data, 1)
     coded = CodedSheets(rect, inks, dtype, other, edges, packed, coloured, record.inks, held.itemsize)
     return coded, sum(sheet.nbytes for sheet in sheets)
+
+
+def _whole_sheets(record: Record, held: SparsePlanes) -> WholeSheets:
+    coloured, inks = held.colours is not None, record.inks
+    sheets = [*([] if held.colours is None else [held.colours]), *(held.inks[ink] for ink in inks)]
+    told = np.array([(*sheet.rect, sheet.most) for sheet in sheets], np.int32)
+    deflating = isal_zlib.compressobj(1)
+    parts = [deflating.compress(told.tobytes())]
+    parts += [deflating.compress(split_bytes(sheet.data).data) for sheet in sheets]
+    packed = b"".join([*parts, deflating.flush()])
+    return WholeSheets(record.rect, inks, np.dtype(held.kind), None, 0, packed, coloured, inks, held.itemsize)
 
 
 def _marked(

@@ -23,9 +23,11 @@ from engine.session.coding.coded_records import (
     CodedData,
     CodedSheets,
     Ways,
+    WholeSheets,
     decode,
     encode,
     joined_bytes,
+    put_away,
     split_bytes,
 )
 from engine.session.coding.sheets_within import SheetsWithin
@@ -433,3 +435,26 @@ def test_what_is_coded_of_a_tile_is_the_same_wherever_it_lies(part):
     assert encode(record, None) > 0
     assert record.held is not data
     assert np.array_equal(record.data, data)
+
+
+def test_very_many_inks_are_coded_sheet_by_sheet_and_nothing_over_all_of_their_rectangle(monkeypatch):
+    def refused(*about):
+        raise AssertionError(about)
+
+    monkeypatch.setattr(coded_records, "_DENSE", 0)
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
+    for n in range(14):
+        session.do(stroke(n, ink=[{"texture": "rock", "colour": "#ffffff", "period": 16 + n}]))
+    found = [record for record in records(session.painting) if isinstance(record.held, SparsePlanes)]
+    before = [(record.held, record.data.tobytes(), record.data.dtype) for record in found]
+    assert found
+    with monkeypatch.context() as patch:
+        patch.setattr(coded_records, "_sheets_over", refused)
+        assert all(encode(record, None) > 0 for record in found)
+        assert all(isinstance(record.held, WholeSheets) for record in found)
+        assert sum(map(put_away, (record.held for record in found))) > 0
+        made = [record.held.plain() for record in found]
+    for record, (planes, data, dtype), again in zip(found, before, made, strict=True):
+        assert (record.data.tobytes(), record.data.dtype) == (data, dtype)
+        assert [sheet.rect for sheet in again.inks.values()] == [sheet.rect for sheet in planes.inks.values()]
+        assert tuple(again.inks) == tuple(planes.inks) == record.inks
