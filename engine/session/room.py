@@ -24,11 +24,8 @@ _LONG = 0.1  # seconds of the processor of what is looked at for how much came a
 _FORGOTTEN_PART = 64  # and such a part of it less after each
 _GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
 _GROWN_PART = 16  # or such a part of what it took: a look for what is free takes the longer the more there is
-_CALM = (
-    1.0  # seconds after the last look at the painting until then: what is seen next takes a third less time where it
-)
-# finds pages; but nobody waits for that where
-_SWOLLEN = 24 << 20  # bytes came beside evaluated tiles
+_CALM = 1.0  # seconds since somebody looked until then: what is seen next takes a third less time where it finds pages
+_SWOLLEN = 24 << 20  # bytes that came beside evaluated tiles, with which nobody waits so long
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
 _UNFELT = 0.02  # seconds of the processor that a command may take longer for it, which no hand feels,
 _UNFELT_PART = 20  # or such a part of what it took
