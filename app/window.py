@@ -284,7 +284,8 @@ class Window:
         if there is one, as a stroke ends before what a key does to it."""
         found: Sequence[PenEvent] = ()
         if self.desk.known.presets:  # kept until there is a brush to paint with
-            found = events()
+            with self._guard.spare("on an event of the window system"):  # what its callbacks raised
+                found = events()
         with self._guard.spare("on a key"):
             self._callbacks.deliver()
         for event in found:
