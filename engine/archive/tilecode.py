@@ -27,6 +27,8 @@ import numpy as np
 
 from engine.archive import tilecode_kernels as kernels
 
+Stretch = bytes | memoryview
+
 
 def code_size(shape: tuple[int, int, int]) -> int:
     """Returns bytes of the codes of a tile (planes, h, w)."""
@@ -55,8 +57,8 @@ def _scratch(tiles: Sequence[np.ndarray]) -> np.ndarray:
     )
 
 
-def encoded(tiles: Sequence[np.ndarray]) -> bytes:
-    """Returns a run of tiles, each int16 or int32 (planes, h, w), as bytes."""
+def encoded(tiles: Sequence[np.ndarray]) -> list[Stretch]:
+    """Returns a run of tiles, each int16 or int32 (planes, h, w), as bytes: the codes, the gains, each stream."""
     samples = sum(data.size for data in tiles)
     pieces = sum(code_size(data.shape) for data in tiles)
     codes = np.empty(pieces, np.uint8)
@@ -68,7 +70,7 @@ def encoded(tiles: Sequence[np.ndarray]) -> bytes:
         kernels.encode(data.astype(np.int32), codes[filled:], found, streams, at, scratch, sums)
         gains.append(found.view(np.uint8).reshape(*found.shape, 2).transpose(0, 3, 1, 2).tobytes())
         filled += code_size(data.shape)
-    return b"".join([codes.data, *gains, *(streams[k, : at[k]].data for k in range(kernels.STREAMS))])
+    return [codes.data, b"".join(gains), *(streams[k, : at[k]].data for k in range(kernels.STREAMS))]
 
 
 def places(raw: np.ndarray, shapes: Sequence[tuple[int, int, int]]) -> np.ndarray | None:

@@ -24,6 +24,10 @@ def made(shape, dtype, spread, seed, slope=0):
     return data
 
 
+def joined(tiles):
+    return b"".join(encoded(tiles))
+
+
 def back(raw, tiles):
     out = [np.full_like(tile, 77) for tile in tiles]
     return decoded(np.frombuffer(bytearray(raw), np.uint8), out), out
@@ -45,7 +49,7 @@ def back(raw, tiles):
 )
 def test_every_integer_comes_back(rows):
     tiles = [made(*row) for row in rows]
-    largest, out = back(encoded(tiles), tiles)
+    largest, out = back(joined(tiles), tiles)
     assert all(np.array_equal(a, b) for a, b in zip(tiles, out, strict=True))
     assert largest >= max(int(np.abs(tile.astype(np.int64) + (tile < 0)).max()) for tile in tiles)
 
@@ -57,7 +61,7 @@ def test_the_extremes_come_back(dtype):
     rows = [[low, high, low, high], [high, low, high, low], [0, low, 0, high], [low, low, high, high]]
     planes = [rows, np.transpose(rows), rows, np.negative(rows).tolist() if dtype == np.int32 else rows]
     tiles = [np.array(planes, np.int64).astype(dtype), *(np.full((4, 1, 1), v, dtype) for v in (low, high))]
-    _, out = back(encoded(tiles), tiles)
+    _, out = back(joined(tiles), tiles)
     assert all(np.array_equal(a, b) for a, b in zip(tiles, out, strict=True))
 
 
@@ -68,7 +72,7 @@ def test_pieces_take_the_bits_they_need(largest, size):
     """A row alternating between -largest and largest is best left as it is; two of 16 pixels, in alpha alone."""
     data = np.zeros((4, 2, 16), np.int16)
     data[3] = [[largest, -largest] * 8, [-largest, largest] * 8]
-    assert len(encoded([data])) == 1 + 4 * 2 + 3 * 2 * 2 + 2 * size
+    assert len(joined([data])) == 1 + 4 * 2 + 3 * 2 * 2 + 2 * size
 
 
 def test_colour_that_follows_from_alpha_takes_no_bits():
@@ -76,9 +80,9 @@ def test_colour_that_follows_from_alpha_takes_no_bits():
     alpha = 4 * made((4, 128, 128), np.int32, 200, 3)[3]
     data = np.array([alpha * 3 // 4, alpha // 2, -alpha // 4, alpha])
     alone = np.array([0 * alpha, 0 * alpha, 0 * alpha, alpha])
-    assert len(encoded([data])) == len(encoded([alone]))
+    assert len(joined([data])) == len(joined([alone]))
     mixed = np.array([alpha, alpha // 2, alpha // 4, 0 * alpha])  # in full cover
-    assert len(encoded([mixed])) == len(encoded([alone]))
+    assert len(joined([mixed])) == len(joined([alone]))
 
 
 @settings(deadline=None, max_examples=30)
@@ -87,12 +91,12 @@ def test_a_reader_that_follows_the_text_finds_the_same(shape, spread, seed, slop
     data = made(shape, np.int32, spread, seed, slope)
     inks = list(range((shape[0] - 4) // 3))
     head = [0, "0", "0", 0, 0, shape[2], shape[1], 32, inks]
-    ((_, _, found, _),) = stranger(encoded([data]), [head])
+    ((_, _, found, _),) = stranger(joined([data]), [head])
     assert np.array_equal(found, data)
 
 
 TILES = [made((4, 5, 6), np.int16, 40, 1), made((4, 3, 3), np.int32, 1 << 20, 2)]
-GOOD = encoded(TILES)
+GOOD = joined(TILES)
 CODES = sum(tilecode.code_size(tile.shape) for tile in TILES)
 
 
