@@ -30,7 +30,7 @@ def test_a_fault_of_the_engine_is_told_and_the_window_goes_on(program, excused):
     if not excused:
         with pytest.raises(AssertionError, match="missing key"):
             app.close()
-    app.log.write_text("")
+    app.close_excused()
 
 
 def window_of(app):
@@ -66,7 +66,7 @@ def test_a_fault_of_the_window_costs_no_painting(program, tmp_path):
         app.wait_until(lambda what=what: f"KeyError: 'missing {what}'" in log.read_text(), f"{what} is not in the log")
     assert log.read_text().count("missing layer") <= 2 * (1 + (time.monotonic() - began) / QUIET), "in every frame"
     assert "imgui-error" not in words
-    app.log.write_text("")
+    app.close_excused()
     assert main(["info", str(tmp_path / "spared.ora")]) == 0
 
 
