@@ -24,7 +24,6 @@ MODES = {
 
 @pytest.fixture
 def uncollected():
-    gc.collect()
     gc.disable()
     yield
     gc.enable()
