@@ -195,24 +195,22 @@ def is_thickset(line: StepLine) -> bool:
 
 
 def make_thin(line: StepLine) -> None:
-    """Makes the farthest step thin that could be, if what it changed is told in few bytes; else it is coded, and put
+    """Makes the farthest step thin that could be, if it changed the paint of one layer alone; else it is coded, and put
     away on disk."""
     number = line._thin
+    if number == line._coded:
+        line.code()  # by what is nearer, as far as may be
     entry, nearer = line.entries[number], line.entries[number + 1]
     (far, near), reached = _paintings(entry.step, line._undone), _ends(nearer.step, line._undone)[0]
     line._thin += 1
     made = thin_step(far, near) if reached is near.root else None
     if made is None:
-        if number == line._coded:
-            line.code()
         if number == line._away:
             line.put_away()
         return
-    if number == line._coded:
-        line._begun = None
-    line._coded, line._away = max(line._coded, number + 1), max(line._away, number + 1)
+    line._away = max(line._away, number + 1)
     line.held += made.nbytes - entry.held
-    entry.whole, entry.thin, entry.held, entry.coded = None, made, made.nbytes, True
+    entry.whole, entry.thin, entry.held = None, made, made.nbytes
     entry.records.clear()
 
 

@@ -221,7 +221,7 @@ def encode(record: Record, other: Record | None) -> int:
     if isinstance(held, np.ndarray | EvenPlanes):
         coded, taken = _coded(record, other), held.nbytes
     elif other is None and 4 * record.rect.area * (COLOURS + 3 * len(record.inks)) > _DENSE:
-        coded, taken = _whole_sheets(record, held), held.nbytes
+        coded, taken = whole_sheets(record, held), held.nbytes
     else:
         coded, taken = _coded_sheets(record, held, other)
     if coded.nbytes >= held.nbytes:
@@ -286,7 +286,8 @@ def _coded_sheets(record: Record, held: SparsePlanes, other: Record | None) -> t
     return coded, sum(sheet.nbytes for sheet in sheets)
 
 
-def _whole_sheets(record: Record, held: SparsePlanes) -> WholeSheets:
+def whole_sheets(record: Record, held: SparsePlanes) -> WholeSheets:
+    """Returns many inks coded by themselves."""
     coloured, inks = held.colours is not None, record.inks
     sheets = [*([] if held.colours is None else [held.colours]), *(held.inks[ink] for ink in inks)]
     told = np.array([(*sheet.rect, sheet.most) for sheet in sheets], np.int32)

@@ -6,27 +6,23 @@ step where tiles lie far apart.  The state is made again from the near end when 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
+from functools import partial
 
-import numpy as np
+from immutables import Map
 
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
-from engine.canvas.store import Pyramid, Record, level_of
+from engine.canvas.store import Level, Pyramid, Record, level_of
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import Rect, TileKey
 from engine.painting.value import Painting
-from engine.session.coding.coded_records import CodedData, coded_alone
+from engine.session.coding import told_tiles
 from engine.session.differing import placed_apart
 from engine.session.held_pyramids import changed_nodes
 from engine.texture.record import Instance
 
 THIN_OVERHEAD = 800 + PLACE_OVERHEAD  # bytes of memory that such a step takes, roughly
-_FACTS = 11  # int64 that are told of a tile, before what its record is made of
-_FARTHEST = 1 << 62  # of a tile, which is told in such a number
-_NONE = -1  # for inks of a tile that has no record
-_INTEGERS = np.dtype(np.int16), np.dtype(np.int32)
 _PLAIN = (int, float, str, Rect)
 _APART = {Layer: {"pyramid"}, Group: {"children"}}
 
@@ -41,7 +37,7 @@ class ThinStep:
     near: Painting
     layer: str
     paint: Pyramid
-    inks: tuple[tuple[Instance, ...], ...]
+    inks: tuple[Instance, ...]
     piece: Spilled | bytes
 
     @property
@@ -54,7 +50,8 @@ class ThinStep:
         node = layers.find(root, self.layer)
         assert isinstance(node, Layer)
         levels, found = node.pyramid.levels, dict[int, dict[tuple[int, int], Record | None]]()
-        for key, record in self._read():
+        piece = self.piece if isinstance(self.piece, bytes) else self.piece.read()
+        for key, record in told_tiles.read(piece, self.inks, partial(_record_at, levels)):
             found.setdefault(key.level, {})[key.x, key.y] = record
         for level, records in found.items():
             editable = level_of(levels.get(level, {})).mutate()
@@ -68,25 +65,10 @@ class ThinStep:
         far = layers.with_pyramid(root, self.layer, replace(self.paint, levels=levels))
         return replace(self.far, root=far), replace(self.near, root=root)
 
-    def _read(self) -> Iterator[tuple[TileKey, Record | None]]:
-        piece = self.piece if isinstance(self.piece, bytes) else self.piece.read()
-        count = int(np.frombuffer(piece, np.int64, 1)[0])
-        facts = np.frombuffer(piece, np.int64, count * _FACTS, 8).reshape(count, _FACTS)
-        start = 8 + facts.nbytes
-        for level, x, y, told, x0, y0, x1, y1, depth, edges, length in facts.tolist():
-            key, rect = TileKey(level, x, y), Rect(x0, y0, x1, y1)
-            if told == _NONE:
-                yield key, None
-                continue
-            inks, packed = self.inks[told >> 1], piece[start : start + length]
-            coded = CodedData(rect, inks, _INTEGERS[told & 1], None, edges, packed)
-            yield key, Record(rect, coded, inks, depth)
-            start += length
-
 
 def thin_step(far: Painting, near: Painting) -> ThinStep | None:
     """Returns what makes one end of a step from the other; None where they differ in more than the paint of one layer,
-    or in what is not told in few bytes."""
+    or in tiles too far away."""
     lost, found = changed_nodes(far.root, near.root)
     changed = [(a, b) for a, b in zip(lost, found, strict=False) if isinstance(a, Layer)]
     if len(lost) != len(found) or len(changed) != 1:
@@ -98,7 +80,7 @@ def thin_step(far: Painting, near: Painting) -> ThinStep | None:
     paint, beside = one.pyramid, other.pyramid
     if paint.uid != beside.uid or layers.find(near.root, one.name) is not other:
         return None
-    told = _told([(key, record) for key, record, _ in placed_apart(paint, beside)])
+    told = told_tiles.tell(list(placed_apart(paint, beside)))
     if told is None:
         return None
     inks, piece = told
@@ -119,21 +101,7 @@ def _same(one: Painting | Node, other: Painting | Node, apart: set[str]) -> bool
     return all(a is b or (isinstance(a, _PLAIN) and a == b) for a, b in pairs)
 
 
-def _told(tiles: list[tuple[TileKey, Record | None]]) -> tuple[tuple[tuple[Instance, ...], ...], bytes] | None:
-    """Returns the stacks of inks of some tiles, and these as one piece."""
-    stacks: dict[tuple[Instance, ...], int] = {}
-    facts, parts = np.zeros((len(tiles), _FACTS), np.int64), [np.int64(len(tiles)).tobytes(), b""]
-    for row, (key, record) in zip(facts, tiles, strict=True):
-        if max(abs(key.x), abs(key.y)) >= _FARTHEST:
-            return None
-        if record is None:
-            row[:4] = *key, _NONE
-            continue
-        if record.sheets is not None:
-            return None
-        coded, packed = coded_alone(record)
-        told = stacks.setdefault(record.inks, len(stacks)) << 1 | _INTEGERS.index(coded.dtype)
-        row[:] = *key, told, *record.rect, record.depth, coded.edges, len(packed)
-        parts.append(packed)
-    parts[1] = facts.tobytes()
-    return tuple(stacks), b"".join(parts)
+def _record_at(levels: Map[int, Level], key: TileKey) -> Record | None:
+    """Returns the record that a tile has."""
+    stored = levels.get(key.level)
+    return None if stored is None else stored.get((key.x, key.y))

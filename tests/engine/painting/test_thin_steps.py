@@ -5,6 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from stepped import ROCK, contents, stroke, thick
 
+from engine.canvas import compact, residuals
 from engine.canvas.tile_cache import TileCache
 from engine.keeping.spill import Spill
 from engine.numeric.address import Rect
@@ -18,8 +19,11 @@ from engine.session.session import Session
 from engine.studio.filing.document import held_by
 
 GROUP = [c.AddLayer("Inner", kind="group"), c.AddLayer("Within", group="Inner")]
+ROCKS = [[{**ROCK[0], "period": period}] for period in (16, 20, 24, 28)]
 ACTS = st.one_of(
-    st.builds(stroke, st.integers(0, 9), st.integers(-2, 2), st.sampled_from([2.0, 9.0]), st.sampled_from([(), ROCK])),
+    st.builds(
+        stroke, st.integers(0, 9), st.integers(-2, 2), st.sampled_from([2.0, 9.0]), st.sampled_from([(), *ROCKS])
+    ),
     st.builds(stroke, st.just(3), st.sampled_from([0, 1]), st.just(60.0)),
     st.integers(1, 5).map(c.Undo),
     st.integers(1, 5).map(c.Redo),
@@ -29,10 +33,12 @@ ACTS = st.one_of(
 
 @pytest.fixture
 def tight(monkeypatch, tmp_path):
-    """A session of which all steps but the nearest two are made thin, and its first strokes."""
+    """A session of which all steps but the nearest two are made thin, and its first strokes; two inks are many."""
     spill = Spill(tmp_path)
     for module in (coded_records, thin_steps):
         monkeypatch.setattr(module, "spill", lambda: spill)
+    for module in (residuals, compact):
+        monkeypatch.setattr(module, "MANY", 2)
     monkeypatch.setattr(lines, "KEPT_WHOLE", 2)
     monkeypatch.setattr(Room, "keep_within", lambda room, root: None)  # there is little room all the time
     yield begun
@@ -71,9 +77,10 @@ def there_and_back(session, acts):
     return states
 
 
-def test_steps_far_away_are_thin_until_they_are_near_again(tight):
+@pytest.mark.parametrize("inks", [[()], ROCKS])
+def test_steps_far_away_are_thin_until_they_are_near_again(tight, inks):
     session = tight()
-    there_and_back(session, map(stroke, range(12)))
+    there_and_back(session, [stroke(n, ink=inks[n % len(inks)]) for n in range(12)])
     thin = thin_ones(session)
     assert sum(thin) > 8
     assert not any(thin[-2:])
