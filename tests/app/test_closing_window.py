@@ -8,14 +8,10 @@ import pytest
 from PIL import Image
 from xserver import let_keys_repeat
 
-from app.desk.exporting.export_state import FINER
 from app.loop import _told
 from engine.studio import results
 
 pytestmark = pytest.mark.window
-
-LEVEL_4 = (4 - FINER[0] + 0.5) / (FINER[1] - FINER[0] + 1)  # its part of the slider's width
-SIZE = (16384, 12288)
 
 
 def shown(app):
@@ -24,14 +20,13 @@ def shown(app):
     return subprocess.run(command, env={**os.environ, "DISPLAY": app.display}, capture_output=True).returncode == 0
 
 
-def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkeypatch):
-    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", None)
-    app = program()
+def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path):
+    app = program(module="held_export")
     app.stroke((400, 300), (700, 500))
     app.canvas()
     assert shown(app)
     app.keys("ctrl+e")
-    app.click(app.at("Finer", LEVEL_4))
+    app.box("Finer")
     app.settled()
     let_keys_repeat(app.display, True)
     try:
@@ -42,7 +37,7 @@ def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkey
         let_keys_repeat(app.display, False)
     app.box("name", "Export picture")
     app.settled()
-    app.fill(str(tmp_path / "large.png"))
+    app.fill(str(tmp_path / "held.png"))
     app.keys("Return")
     app.until_gone("name")
     assert not list(tmp_path.rglob("untitled*")), "a held key chose a file"
@@ -50,11 +45,13 @@ def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkey
     app.click("Don’t save")
     while shown(app):  # and no longer than it writes
         time.sleep(0.02)
-    assert app.process.poll() is None, "the window is there until all is written"
+    assert app.process.poll() is None, "the program ended before all was written"
+    assert not (tmp_path / "held.png").exists()
+    (tmp_path / "leave").touch()
     assert app.process.wait(90) == 0
-    with Image.open(tmp_path / "large.png") as picture:
-        assert picture.size == SIZE
-        picture.verify()
+    with Image.open(tmp_path / "held.png") as picture:
+        assert picture.size == (1024, 768)
+        picture.load()
 
 
 def test_what_fails_when_the_window_is_gone_is_told_on_the_terminal(capsys):
