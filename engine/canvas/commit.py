@@ -41,7 +41,8 @@ Lessen = Callable[[Iterable[Record | None]], None]
 _AT_ONCE = 224 << 20  # bytes of the planes of an edit's bounds up to which it is worked on as one rectangle
 _CACHE_PART = 4  # but no more than such a part of what the cache may hold: several times as much comes and goes
 _LEAST_AT_ONCE = 48 << 20
-_FEW = 1 << 18  # pixels of bounds whose inks are not counted: smaller pieces would not be fewer bytes
+_FEW = 1 << 16  # pixels of bounds whose inks are not counted: smaller pieces would not be fewer bytes,
+_NOT_MANY = 1 << 18  # and of those whose planes may take twice as much: smaller pieces take longer
 _SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up by itself, then all together; where much
 # ink lies smaller ones, one level up at least
 _MOST_WAITING = 32  # strokes whose attenuation may wait: beyond, reading a fine tile would take too long
@@ -186,7 +187,8 @@ def _is_at_once(pyramid: Pyramid, level: int, rect: Rect, most: int) -> bool:
     """Tells whether an edit of these bounds is worked on as one rectangle, of `most` bytes of planes."""
     if rect.area <= _FEW or rect.area * _bytes_of_each(0) > most:
         return rect.area * _bytes_of_each(0) <= most
-    return rect.area * _bytes_of_each(len(_inks_near(pyramid, level, rect))) <= most
+    more = 2 if rect.area <= _NOT_MANY else 1
+    return rect.area * _bytes_of_each(len(_inks_near(pyramid, level, rect))) <= more * most
 
 
 def _inks_near(pyramid: Pyramid, level: int, rect: Rect) -> set[Instance]:

@@ -24,7 +24,7 @@ class Patch:
     """What changed of one tile.
 
     `at`: the even rectangle that the arrays cover, within the tile; `dirty`: the one that holds all that changed.
-    `old` (None: nothing lay there) and `new` have the same inks; `keep` is A, float32 (h, w).
+    `old` (None: nothing lay there) has no inks that `new` has not; `keep` is A, float32 (h, w).
     `marks`: `changed`, uint8 (h, w), is not zero where A != 1 or v' != v; its bit 2 tells where v' != v, but not in the
     patches of an edit's own level; and `spans`, int32 (h, 2), the columns of each row in which any is marked.  Off
     them, and off the 2 x 2 pixels that they meet, only patches of an edit's own level have an A.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from functools import cache
 
 import numpy as np
@@ -24,8 +24,8 @@ def _zeros(planes: int) -> np.ndarray:
     return np.zeros((planes, TILE, TILE), np.float32)
 
 
-_FIRST = 16  # tiles that are worked out together, until one knows how much ink lies there
-_PIECE = 32 << 20  # bytes of tiles that are worked out together then
+_FIRST = 16  # tiles that are worked out together at most, until one knows how much ink lies there
+_PIECE = 16 << 20  # bytes of tiles that are worked out together, as far as one knows
 _NO_COLOUR = np.empty(0, np.float32)
 _BLANK, _TILE = Planes(_zeros(COLOURS)), Rect(0, 0, TILE, TILE)
 
@@ -47,7 +47,8 @@ def paint(
     what of them lies `within` an even rectangle."""
     found: dict[TileKey, Patch | None] = {}
     for before in _tiles(pyramid, keys, cache):
-        for key, old in before.items():
+        while before:  # what was worked out is held for no longer
+            key, old = before.popitem()
             patch = _painted(pyramid, edit, key, old)
             found[key] = patch if patch is None or within is None else cropped(patch, within)
     return [patch for key in keys if (patch := found[key]) is not None]
@@ -70,13 +71,13 @@ def _painted(pyramid: Pyramid, edit: Edit, key: TileKey, old: Planes | None) -> 
     dirty = placed_extent(at, extent)
     if dirty.empty:
         return None
-    there = None if old is None else before
+    there = None if old is None else widened(old, old.inks)
     return Patch(key, at, dirty, there, Planes(new, inks), stamp.keep, marks, spares)
 
 
 def _tiles(
     pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None
-) -> Iterator[Mapping[TileKey, Planes | None]]:
+) -> Iterator[dict[TileKey, Planes | None]]:
     """Yields the present values of tiles of one level, some at a time."""
     missing = []
     for key in keys:
@@ -85,25 +86,40 @@ def _tiles(
             yield {key: value}
         else:
             missing.append(key)
-    size, first = _FIRST, 0
+    size, first = min(_fitting(_stored(pyramid, missing)), _FIRST), 0
     while first < len(missing):
         found = _evaluated(pyramid, missing[first : first + size], cache)
-        yield found
         first += size
-        most = max((value.data.nbytes for value in found.values() if value is not None), default=0)
-        size = max(_PIECE // most, 1) if most else _FIRST
+        size = _fitting(max((value.data.nbytes for value in found.values() if value is not None), default=0))
+        yield found
 
 
-def _evaluated(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:
+def _stored(pyramid: Pyramid, keys: Sequence[TileKey]) -> int:
+    """Returns the most bytes that one of some tiles of a level takes with the inks that are stored there; 0 where
+    nothing is."""
+    level = pyramid.levels.get(keys[0].level) if keys else None
+    if level is None:
+        return 0
+    inks = (len(record.inks) for key in keys if (record := level.get((key.x, key.y))) is not None)
+    return 4 * TILE * TILE * max((COLOURS + 3 * count for count in inks), default=0)
+
+
+def _fitting(most: int) -> int:
+    """Returns how many tiles of so many bytes at most are worked out together."""
+    return max(_PIECE // most, 1) if most else _FIRST
+
+
+def _evaluated(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> dict[TileKey, Planes | None]:
     """Returns the values of some tiles of one level: worked out together, unless they lie far apart."""
     bounds = tile_bounds(keys)
     if bounds.area > 4 * TILE * TILE * len(keys):
         return {key: evaluate_sparse(pyramid, key.level, key.rect, cache) for key in keys}
-    whole = evaluate_sparse(pyramid, keys[0].level, bounds, cache)
-    if whole is None:
-        return dict.fromkeys(keys)
-    values: dict[TileKey, Planes | None] = {}
+    whole = evaluate_sparse(pyramid, keys[0].level, bounds, cache, tiled=False)
+    values: dict[TileKey, Planes | None] = dict.fromkeys(keys)
     for key in keys:
-        cut = np.ascontiguousarray(whole.data[:, *key.rect.slices(bounds)])
-        values[key] = without_empty_inks(Planes(cut, whole.inks))
+        if whole is not None:
+            cut = np.ascontiguousarray(whole.data[:, *key.rect.slices(bounds)])
+            values[key] = without_empty_inks(Planes(cut, whole.inks))
+        if cache is not None:
+            cache.lend(pyramid, key, values[key])
     return values

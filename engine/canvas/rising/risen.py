@@ -112,7 +112,7 @@ def _risen_from(pyramid: Pyramid, patches: Sequence[Patch], here: Risen, above: 
         maps = _none(len(inks)), plane_map(patch.new.inks, inks)
         sources = patch.new.data, patch.new.data
         if patch.old is not None:
-            maps, sources = (maps[1], maps[1]), (patch.old.data, patch.new.data)
+            maps, sources = (plane_map(patch.old.inks, inks), maps[1]), (patch.old.data, patch.new.data)
         read = part.y0 - patch.at.y0, part.x0 - patch.at.x0, to.height, top, left, strip
         lifting.lower(sources, maps, patch.keep, patch.marks, read, within, here.lowered, unit)
         if noise.size:

@@ -326,8 +326,8 @@ def test_tiles_worked_out_a_few_at_a_time_are_those_worked_out_together(with_cac
     edit = ArrayEdit(1, -311, -203, np.full((700, 900), 0.5, np.float32), np.full((4, 700, 900), 0.25, np.float32))
     plain = painting.evaluate_sparse
 
-    def evaluate_sparse(pyramid, level, rect, cache):
-        found = plain(pyramid, level, rect, cache)
+    def evaluate_sparse(*place, **how):
+        found = plain(*place, **how)
         sizes.append(0 if found is None else found.data.nbytes)
         return found
 
@@ -345,6 +345,10 @@ def test_tiles_worked_out_a_few_at_a_time_are_those_worked_out_together(with_cac
     for (key, one), (place, other) in pairs:
         assert (key, one.rect, one.inks) == (place, other.rect, other.inks)
         assert (one.data == other.data).all()
+    monkeypatch.setattr(painting, "_PIECE", 1 << 18)
+    sizes.clear()
+    commit(together, edit)  # now it is stored how much lies there
+    assert max(sizes) <= most_of_few
 
 
 def test_a_thin_stroke_across_a_wide_canvas_takes_memory_for_the_stroke_alone(monkeypatch):
