@@ -16,7 +16,7 @@ from engine.canvas import kernels
 from engine.canvas.attenuate import effective
 from engine.canvas.descent import from_afar
 from engine.canvas.store import Pyramid, Record
-from engine.canvas.tile_cache import Square, TileCache, parted, without_empty_inks
+from engine.canvas.tile_cache import Square, TileCache, lies_in, parted, without_empty_inks
 from engine.numeric.address import TILE, Rect, TileKey, lies_within
 from engine.numeric.column import Column
 from engine.numeric.pyramid import expand_into
@@ -158,7 +158,7 @@ def _is_empty(
     """Tells whether nothing is in a rectangle of a square, nor in all that lies below it; `below`: nor in these
     rectangles of the levels below it, the finest first."""
     finest = pyramid.finest
-    if value is not None and value.data[:, *rect.slices(around.rect)].any():
+    if value is not None and lies_in(value, *rect.slices(around.rect)):
         return False
     if finest is None or finest <= around.level:
         return True

@@ -270,6 +270,14 @@ def occupied(data: np.ndarray, top: int, left: int, height: int, width: int) -> 
     return bits  # type: ignore[return-value]
 
 
+def lies_in(planes: Planes, rows: slice, columns: slice) -> bool:
+    """Tells whether anything lies in a part of planes."""
+    data = planes.data
+    if len(planes.inks) > _MOST or not data.flags.c_contiguous:  # for others it is not compiled
+        return bool(data[:, rows, columns].any())
+    return occupied(data, rows.start, columns.start, rows.stop - rows.start, columns.stop - columns.start) > 0
+
+
 def without_empty_inks(planes: Planes) -> Planes | None:
     """Returns planes of ink that are zero all over are dropped; a stack that is zero all over is None."""
     data, inks = planes.data, planes.inks
