@@ -198,7 +198,7 @@ def _part(number: int, component: Component, often: float, coloured: bool, clear
     place = "x, y" if often == 1.0 else f"x*{often:.9g}, y*{often:.9g}"
     seen = f'"{number}"({place})'
     if clear:
-        return f"(over({component.colour}*{seen}, ground) - ground)*{component.amount:.9g}"
+        return f"({component.colour}*{seen} - ground*alpha({seen}))*{component.amount:.9g}"
     if coloured:
         return f"({component.colour}*{seen} - ground)*{component.amount:.9g}"
     return f"({component.colour} - ground)*({component.amount:.9g}*{seen})"

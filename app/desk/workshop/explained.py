@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from immutables import Map
 
+from app.desk.workshop.inlined import Given, by_pressure, inlined, is_coloured, number_of, text_of, text_period
 from app.desk.workshop.workshop_state import TextTold
 from engine.brush.parts import Component
 from engine.brush.settings import Brush
 from engine.numeric.curves import CURVES, Shape, smooth_curve
 from engine.painting.commands import DefineTexture
-from engine.texture.expression.written import USUAL_STAGES
+from engine.texture.expression.written import PRESSURE, STAGES_MOST, USUAL_STAGES, WrittenError
 
 _USUAL = 32.0  # pixels: the period of a texture that tells none
 _PERIOD_OF_TEXT = 64.0
@@ -27,8 +28,8 @@ _LOOKED, _KNOTS_MOST, _NEAR = (
     16,
     0.01,
 )  # places along a curve, ends of straight lines in its place, how near these are
+_WRITTEN, _UNKNOWN = "expression", ""  # what makes a texture that only the painting has
 _OWN = ("tint", "amount")  # what lines of a text are called anyway
-_NOTHING = DefineTexture("", "")
 
 
 class Explained(NamedTuple):
@@ -36,6 +37,35 @@ class Explained(NamedTuple):
 
     text: str
     told: TextTold
+
+
+class _Told(NamedTuple):
+    """A component, what is told of its texture, in how many pixels it repeats, what makes it; the text of a
+    written one, and whether it is `written` line by line."""
+
+    part: Component
+    given: Given
+    period: float
+    kind: str
+    text: str = ""
+    written: bool = False
+
+    @property
+    def weight(self) -> str:
+        """Gives which texture of a series it is, as the third of a texture's values."""
+        told = self.given.get("weight", 0.0)
+        if told == 0.0 or self.given.get("stages", 1) == 1 or self.kind == _WRITTEN:
+            return ""
+        if isinstance(told, list | tuple):
+            return f", {by_pressure(told)}"
+        return f", {PRESSURE if isinstance(told, str) else format(told, '.9g')}"
+
+    @property
+    def stages(self) -> int:
+        """Gives for how many pressures there are textures."""
+        if "clamp" in self.weight:
+            return STAGES_MOST
+        return int(number_of(self.given if self.kind == _WRITTEN or self.weight else {}, "stages", USUAL_STAGES))
 
 
 class _Wave(NamedTuple):
@@ -84,50 +114,113 @@ _SAID: dict[str, Callable[[_Wave], str]] = {
 
 
 def explained(brush: Brush, needs: Iterable[DefineTexture]) -> Explained | None:
-    """Returns what a brush's ink is as a text; `needs`: what defines its textures, which the text has by their names.
-    None where nothing of it can be told."""
-    told = {one.name: one for one in needs}
-    if len(brush.ink) == 1 and told.get(brush.ink[0].texture, _NOTHING).maker == "expression":
-        given = {**told[brush.ink[0].texture].arguments, **brush.ink[0].parameters}
-        about = (
-            Map(given.get("values", {})),
-            float(given.get("period", _PERIOD_OF_TEXT)),
-            given.get("stages", USUAL_STAGES),
-        )
-        return Explained(str(given["text"]), TextTold(*about))
-    greys = {name for name, one in told.items() if one.maker in _GREY_MAKERS}
-    said = [part.texture in greys or (part.texture in _SAID and part.texture not in told) for part in brush.ink]
-    if not any(said):
+    """Returns what a brush's ink is as a text; `needs`: what defines its textures.  Written ones stand in it line by
+    line, as far as that is not too much, all others by their names.  None where a brush has no ink of textures."""
+    defined = {one.name: one for one in needs}
+    parts = [_told(part, defined.get(part.texture)) for part in brush.ink]
+    if not parts:
         return None
-    period = next(_own_period(part, greys) for part, can in zip(brush.ink, said, strict=True) if can)
-    lines, sums = ["// What this brush paints with", f"paint = pick({brush.colour})"], ["paint"]
-    for n, (part, can) in enumerate(zip(brush.ink, said, strict=True), 1):
-        if not can:
-            lines.append(f"// {part.texture}: the language has no word for it, it is left out".replace("\n", " "))
-            continue
-        lines += _lines(n, part, period / _own_period(part, greys), greys, brush.shaping)
-        sums.append(f"(tint_{n} - paint)*amount_{n}*{_name(part, n)}")
-    return Explained("\n".join((*lines, " + ".join(sums), "")), TextTold(period=period))
+    if len(parts) == 1 and parts[0].written:
+        given = parts[0].given
+        values, period = given.get("values"), number_of(given, "period", _PERIOD_OF_TEXT)
+        told = Map(values) if isinstance(values, Mapping) else Map()
+        return Explained(parts[0].text, TextTold(told, period, parts[0].stages))
+    found = _mixed(brush, parts)
+    if any(part.written for part in parts) and not _is_text(found):
+        found = _mixed(brush, [part._replace(written=False) for part in parts])
+    return Explained(found, TextTold(period=parts[0].period, stages=max(part.stages for part in parts)))
 
 
-def _lines(number: int, part: Component, often: float, greys: Collection[str], last: Shape | None) -> list[str]:
-    """Returns the lines of one texture of the ink; `last`: the brush's own shaping."""
-    wave, like = _Wave(often, part.parameters), []
-    if part.texture in greys:
-        seen = f'"{part.texture}"({_times(often, "x")}, {_times(often, "y")})'
+def _told(part: Component, defined: DefineTexture | None) -> _Told:
+    """Returns a component with what defines its texture."""
+    given = {**(defined.arguments if defined is not None else {}), **part.parameters}
+    if "values" in part.parameters and defined is not None:
+        given["values"] = {**defined.arguments.get("values", {}), **part.parameters["values"]}
+    if defined is not None and defined.maker == _WRITTEN:
+        about = text_period(given, "period" in part.parameters), defined.maker, text_of(defined)
+        return _Told(part, given, *about, written=not given.get("seed"))
+    return _Told(part, given, number_of(given, "period", _usual_period(given, defined)), _kind(part, defined))
+
+
+def _kind(part: Component, defined: DefineTexture | None) -> str:
+    if defined is not None:
+        return defined.maker
+    return part.texture if part.texture in _SAID else _UNKNOWN
+
+
+def _usual_period(given: Given, defined: DefineTexture | None) -> float:
+    """Returns how many pixels a texture has before it repeats, where that is not told: its sample's, as far as what
+    makes it tells them."""
+    size, rect = given.get("size"), given.get("rect")
+    if isinstance(size, tuple | list):
+        return float(size[0])
+    if isinstance(rect, tuple | list):
+        return float(rect[3])
+    return _USUAL if defined is None else _SAMPLE
+
+
+def _mixed(brush: Brush, parts: Sequence[_Told]) -> str:
+    """Returns a mix as a text."""
+    lines, sums, names = ["// What this brush paints with", f"paint = pick({brush.colour})"], ["paint"], {"paint"}
+    for n, part in enumerate(parts, 1):
+        names |= {_name(part.part, n), f"tint_{n}", f"amount_{n}"}
+    for n, part in enumerate(parts, 1):
+        own, coloured = _lines(n, part, parts[0].period, (brush.shaping, names))
+        lines += own
+        name = _name(part.part, n)
+        shown = f"(tint_{n}*{name} - paint*alpha({name}))*amount_{n}"
+        sums.append(shown if coloured else f"(tint_{n} - paint)*amount_{n}*{name}")
+    return "\n".join((*lines, " + ".join(sums), ""))
+
+
+def _lines(number: int, told: _Told, period: float, around: tuple[Shape | None, set[str]]) -> tuple[list[str], bool]:
+    """Returns the lines of one texture of the ink, and whether it is a colour; `around`: the brush's own shaping, and
+    the names that lines have."""
+    part, often, name = told.part, period / told.period, _name(told.part, number)
+    knots = [found for found in map(_knots, (part.shaping, around[0])) if found]
+    before: list[str] = []
+    if told.written:
+        own = name if often == 1.0 and not knots else _free("own", number, around[1])
+        made, coloured = inlined(told.text, told.given, often, (own, lambda line: _free(line, number, around[1])))
+        before, seen = [f"// {part.texture}".replace("\n", " "), made], own
+        if often != 1.0:
+            seen = f"scale({own}, {1.0 / often:.9g})"
+    elif told.kind in _SAID:
+        seen, coloured = _SAID[told.kind](_Wave(often, part.parameters)), False
+        before = ["// the language's own noise: much like rock, not the same"] if told.kind == "rock" else []
     else:
-        seen = _SAID[part.texture](wave)
-        like = ["// the language's own noise: much like rock, not the same"] if part.texture == "rock" else []
-    for shape in (part.shaping, last):
-        knots = _knots(shape)
-        if knots:
-            seen = f"curve({seen}, {', '.join(f'{value:.2g}' for knot in knots for value in knot)})"
-    return [
-        *like,
-        f"{_name(part, number)} = {seen}",
-        f"tint_{number} = pick({part.colour})",
-        f"amount_{number} = slider({part.amount:g}, 0, {max(part.amount, 1.0):g})",
-    ]
+        seen = f'"{part.texture}"({_times(often, "x")}, {_times(often, "y")}{told.weight})'
+        coloured = is_coloured(told.text) if told.text else told.kind not in _GREY_MAKERS
+    for ends in knots:
+        seen = _bent(seen, ", ".join(f"{value:.2g}" for knot in ends for value in knot), coloured)
+    shown = [] if seen == name else [f"{name} = {seen}"]
+    tint, amount = f"pick({part.colour})", f"slider({part.amount:g}, 0, {max(part.amount, 1.0):g})"
+    return [*before, *shown, f"tint_{number} = {tint}", f"amount_{number} = {amount}"], coloured
+
+
+def _bent(seen: str, ends: str, coloured: bool) -> str:
+    if not coloured:
+        return f"curve({seen}, {ends})"
+    bent = ", ".join(f"curve({channel}({seen}), {ends})" for channel in ("red", "green", "blue"))
+    return f"fade(rgb({bent}), alpha({seen}))"
+
+
+def _free(line: str, number: int, names: set[str]) -> str:
+    """Returns a name for a line of a text within another, and notes it."""
+    name = f"{line}_{number}"
+    while name in names:
+        name += "_"
+    names.add(name)
+    return name
+
+
+def _is_text(text: str) -> bool:
+    from engine.texture.expression.language import read  # with all that it takes to draw, which is there by now
+
+    try:
+        return bool(read(text).lines)
+    except WrittenError:
+        return False
 
 
 @lru_cache(64)
@@ -151,10 +244,6 @@ def _knots(shape: Shape | None) -> tuple[tuple[float, float], ...]:
 def _name(part: Component, number: int) -> str:
     word = re.sub(r"\W+", "_", part.texture.lower(), flags=re.ASCII).strip("_0123456789") or "texture"
     return f"{word}_{number}" if word not in _OWN else f"{word}_of_{number}"
-
-
-def _own_period(part: Component, greys: Collection[str]) -> float:
-    return float(part.parameters.get("period", _SAMPLE if part.texture in greys else _USUAL))
 
 
 def _times(factor: float, name: str) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from immutables import Map
 
+from app.desk.workshop.inlined import text_set
 from engine.painting.commands import DefineTexture
 from engine.studio.requests import Request
 from engine.studio.workshop.workshop_records import (
@@ -118,12 +118,7 @@ class WorkshopState:
     @property
     def settled_text(self) -> str:
         """Gives the text with the values of sliders as its usual ones."""
-        text = self.text
-        for name, value in self.values.items():
-            usual = rf"(?m)((?:^|;)[ \t]*{re.escape(name)}[ \t]*=[ \t]*(?:slider|pick)[ \t]*\([ \t]*)[^,)\s]+"
-            told = value if isinstance(value, str) else f"{value:.4g}"
-            text = re.sub(usual, lambda found, told=told: found[1] + told, text, count=1)  # type: ignore[misc]
-        return text
+        return text_set(self.text, self.values)
 
     def settle(self) -> None:
         """Writes the values of sliders into the text, as its usual ones."""

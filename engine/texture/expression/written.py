@@ -11,6 +11,7 @@ is: with a bracket behind it the name is the function's, without it is the line'
 from __future__ import annotations
 
 import difflib
+import itertools
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -77,6 +78,15 @@ class Term:
     token: Token = field(compare=False)
     told: str = ""
 
+    @property
+    def within(self) -> Iterator[Term]:
+        """Yields it and all its parts, and theirs."""
+        open_ = [self]
+        while open_:
+            term = open_.pop()
+            yield term
+            open_.extend(term.parts)
+
 
 @dataclass(frozen=True, slots=True)
 class Adjustable:
@@ -135,11 +145,7 @@ class WrittenText:
         return any(term.operation in (*PLACERS, OUTER_WORD) or term.told in told for term in self._terms())
 
     def _terms(self) -> Iterator[Term]:
-        open_ = [line.term for line in self.lines]
-        while open_:
-            term = open_.pop()
-            yield term
-            open_.extend(term.parts)
+        return itertools.chain.from_iterable(line.term.within for line in self.lines)
 
     def place(self, at: int) -> tuple[int, int]:
         """Returns the line and the column, from 1, of a character of the text."""
@@ -267,6 +273,9 @@ class _Text(Reader[Term]):
             parts = [self.choice(depth + 1)]
             self.need(",", ", and how far down")
             parts.append(self.choice(depth + 1))
+            if self.now.text == ",":  # of a series, which of it
+                self.pop()
+                parts.append(self.choice(depth + 1))
         self.need(")", ") or an operator")
         return self.part(token, "texture", *parts)
 
@@ -299,12 +308,9 @@ class _Text(Reader[Term]):
 
 def _only_there(reader: _Text, term: Term, slider: Adjustable | None) -> None:
     """Tells of a slider that is not a line of its own."""
-    open_ = [] if slider is not None else [term]
-    while open_:
-        one = open_.pop()
+    for one in term.within if slider is None else ():
         if one.operation in _SETTERS:
             reader.refuse(f"it in a line of its own: name = {one.operation}(...)", one.token)
-        open_.extend(one.parts)
 
 
 def close_to(word: str, known: list[str]) -> str:

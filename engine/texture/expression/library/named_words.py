@@ -12,10 +12,11 @@ from engine.texture.expression.codes import Code
 from engine.texture.expression.graph import Graph
 from engine.texture.expression.library.bundled_texts import like_in_library, written_library
 from engine.texture.expression.naming.asking import asked_of
-from engine.texture.expression.naming.elsewhere import Elsewhere
+from engine.texture.expression.naming.elsewhere import Elsewhere, unit_of
 from engine.texture.expression.spreads import Spread, spread_within
 from engine.texture.expression.weaving import Env, NamedText, Rule, Value, Weaver, last_line, woven_within
 from engine.texture.expression.written import Term, WrittenError, WrittenText
+from engine.texture.matched import Series
 
 PLACES_MOST = 8  # textures of other makers, and places at which one is asked for, of one text
 _DEVIATION = 0.15  # of such a texture, about
@@ -30,8 +31,10 @@ def named_texture(read: Callable[[str], WrittenText]) -> Rule:
         name = term.told.strip('"')
         bundled = written_library().get(name)
         other = weaver.setting.named.get(name)
-        place = [weaver.number(part, env.point) for part in term.parts]
+        place = [weaver.number(part, env.point) for part in term.parts[:2]]
         there = env if not place else replace(env, x=place[0].nodes[0], y=place[1].nodes[0])
+        if len(term.parts) > 2:
+            other, bundled = _of_series(weaver, term, env, None if bundled is not None else other), None
         if bundled is not None:
             value = _woven(weaver, term, there, read(bundled.text))
         elif isinstance(other, Elsewhere):
@@ -43,6 +46,15 @@ def named_texture(read: Callable[[str], WrittenText]) -> Rule:
         return replace(value, error=weaver.errors.worst(value.error, *(one.error for one in place)))
 
     return rule
+
+
+def _of_series(weaver: Weaver, term: Term, env: Env, other: Elsewhere | NamedText | None) -> Elsewhere:
+    """Returns a texture of a series at the weight that is told, from its first example, 0, to the second, 1."""
+    made = other.made if isinstance(other, Elsewhere) else None
+    if not isinstance(made, Series):
+        weaver.refuse(term.parts[2], "a third value", f"two: {quoted(term.told)} is no series between two examples")
+    weight = weaver.fixed(term.parts[2], env, 0.0, 1.0)
+    return Elsewhere(replace(made, weight=weight), unit_of(made))
 
 
 def _woven(weaver: Weaver, term: Term, env: Env, written: WrittenText, told: NamedText | None = None) -> Value:

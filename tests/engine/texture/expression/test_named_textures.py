@@ -1,12 +1,14 @@
 """Textures of other makers by their names within a text: what they are at any place, as wide as a sample is."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.checks.field_error import FieldError
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE
 from engine.texture.expression.defined import expression
@@ -52,6 +54,22 @@ def test_a_texture_as_it_is_has_the_pixels_of_its_own_maker(name):
         finer = level + {16: 2, 64: 0}[unit]  # of 64 pixels a period
         own = NAMED[name].appearance(finer, rect)
         assert np.abs(made.means(level, rect) - own).max() <= 2.0**-22
+
+
+def test_a_third_value_tells_which_of_a_series_it_is():
+    source = ImageSource.of("two", np.ascontiguousarray(PIXELS[:, :16]))
+    named = {"both": bound_anew(instance("series", {"stages": 2, "period": 16}, 0, 0, source, EVERYWHERE))}
+    rect, level = Rect(-9, 3, 40, 20), 2 if unit_of(named["both"]) == 16 else 0
+    for told, weight in (("", 0.0), (", 0.25", 0.25), (", 0.2 + 0.8*clamp(pressure, 0, 1)", 1.0)):
+        made = expression({"text": f'"both"(x, y{told})', "named": named}, -40)
+        own = replace(named["both"], weight=weight).appearance(0, rect)
+        assert np.abs(made.means(level, rect) - own).max() <= 2.0**-22
+    for text, expected in (
+        ('"rock"(x, y, 1)', "no series"), ('"moss"(x, y, 1)', "no series"), ('"both"(x, y, x)', "one that does not"),
+        ('"both"(x, y, 2)', "a number from 0 to 1"), ('"both"(x, y, 0, 0)', "or an operator"),
+    ):  # fmt: skip
+        with pytest.raises(FieldError, match=expected):
+            expression({"text": text, "named": NAMED | named}, -40)
 
 
 @pytest.mark.parametrize("text", TEXTS)
