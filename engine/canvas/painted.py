@@ -26,6 +26,7 @@ def _zeros(planes: int) -> np.ndarray:
 
 _FIRST = 16  # tiles that are worked out together at most, until one knows how much ink lies there
 _PIECE = 16 << 20  # bytes of tiles that are worked out together, as far as one knows
+_MUCH = 2 << 20  # bytes of a tile from which on it is worked out only where it is asked for, and not kept for others
 _NO_COLOUR = np.empty(0, np.float32)
 _BLANK, _TILE = Planes(_zeros(COLOURS)), Rect(0, 0, TILE, TILE)
 
@@ -46,7 +47,7 @@ def paint(
     """(A, B) of an edit applied to some of its tiles: patches of whole tiles, of those in which a pixel changes, or of
     what of them lies `within` an even rectangle."""
     found: dict[TileKey, Patch | None] = {}
-    for before in _tiles(pyramid, keys, cache):
+    for before in _tiles(pyramid, keys, cache, within):
         while before:  # what was worked out is held for no longer
             key, old = before.popitem()
             patch = _painted(pyramid, edit, key, old)
@@ -76,9 +77,10 @@ def _painted(pyramid: Pyramid, edit: Edit, key: TileKey, old: Planes | None) -> 
 
 
 def _tiles(
-    pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None
+    pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None, within: Rect | None
 ) -> Iterator[dict[TileKey, Planes | None]]:
-    """Yields the present values of tiles of one level, some at a time."""
+    """Yields the present values of tiles of one level, some at a time; where much lies there, only those that lie
+    `within` a rectangle."""
     missing = []
     for key in keys:
         known, value = cache.get(pyramid, key) if cache is not None else (False, None)
@@ -86,7 +88,11 @@ def _tiles(
             yield {key: value}
         else:
             missing.append(key)
-    size, first = min(_fitting(_stored(pyramid, missing)), _FIRST), 0
+    most = _stored(pyramid, missing)
+    if within is not None and most >= _MUCH:
+        yield from ({key: _evaluated_within(pyramid, key, within, cache)} for key in missing)
+        return
+    size, first = min(_fitting(most), _FIRST), 0
     while first < len(missing):
         found = _evaluated(pyramid, missing[first : first + size], cache)
         first += size
@@ -123,3 +129,14 @@ def _evaluated(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | Non
         if cache is not None:
             cache.lend(pyramid, key, values[key])
     return values
+
+
+def _evaluated_within(pyramid: Pyramid, key: TileKey, within: Rect, cache: TileCache | None) -> Planes | None:
+    """Returns the values of a tile as far as they lie within an even rectangle, and zero elsewhere."""
+    part = key.rect.intersect(within)
+    value = evaluate_sparse(pyramid, key.level, part, cache, tiled=False)
+    if value is None or part == key.rect:
+        return value
+    out = np.zeros((len(value.data), TILE, TILE), np.float32)
+    out[:, *part.slices(key.rect)] = value.data
+    return Planes(out, value.inks)

@@ -288,6 +288,9 @@ def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts(limit, inks, s
     base = painted(9, inks=tuple(Grain(0, seed) for seed in range(inks)))
     edit = ArrayEdit(2, -1111, -903, 1 - alpha, add, spares_alpha=spares)
     monkeypatch.setattr("engine.canvas.commit._AT_ONCE", limit)
+    monkeypatch.setattr(
+        painting, "_MUCH", 1 << 19
+    )  # of three inks' tiles what lies around a square is worked out alone
     by_slabs = commit(base, edit)
     monkeypatch.setattr("engine.canvas.commit._AT_ONCE", 1 << 40)
     at_once = commit(base, edit)
