@@ -89,10 +89,12 @@ class Ink:
         colour = np.broadcast_to(self.base[:, None, None], (3, *pressure.shape)).copy()
         planes, inks = [], []
         for part in self.loaded:
+            swaying = [one for one in self._swaying.get(part.instance, ()) if one.lies_in(ways)]
+            if not swaying and not part.amplitude.any():
+                continue
             amplitude = np.zeros((3, *pressure.shape), np.float32) + part.amplitude[:, None, None]
-            for one in self._swaying.get(part.instance, ()):
-                if one.lies_in(ways):
-                    amplitude += one.amplitude[:, None, None] * one.part(pressure, rim, ways)
+            for one in swaying:
+                amplitude += one.amplitude[:, None, None] * one.part(pressure, rim, ways)
             if amplitude.any():
                 colour += amplitude * part.instance.appearance(key.level, key.rect)[:3]
                 planes.append(amplitude)

@@ -70,7 +70,7 @@ def _parser() -> Parser:
     parser.add_argument("--pressure", type=_felt, default=1.0, metavar="P", help="of the pen, 0 to 1 (default 1)")
     parser.add_argument("--rim", type=_felt, default=1.0, metavar="R", help="distance from the stroke's, 0 to 1")
     parser.add_argument("--direction", type=float, default=0.0, metavar="D", help="of the stroke, degrees clockwise")
-    parser.add_argument("--stages", type=int, default=5, metavar="N", help="mixed pressures, 2 to 9 (default 5)")
+    parser.add_argument("--stages", type=int, metavar="N", help="mixed pressures, 2 to 9 (default 5)")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a slider, or a colour")
     parser.add_argument(
         "--texture",
@@ -130,8 +130,8 @@ def _made(text: _Given, given: argparse.Namespace) -> Expression:
         "period": given.period,
         "seed": given.seed,
         "values": Map(values),
-        "stages": given.stages,
     }
+    told |= {} if given.stages is None else {"stages": given.stages}
     told |= {"weight": given.pressure, "rim": given.rim, "direction": given.direction}
     others = textures_named(given.texture)
     try:

@@ -19,7 +19,7 @@ from engine.studio.workshop.workshop_records import (
     WorkshopWords,
 )
 from engine.texture.expression.library.bundled_texts import LibraryText, title_of
-from engine.texture.expression.written import STAGES_MOST, USUAL_STAGES
+from engine.texture.expression.written import USUAL_STAGES, most_stages
 
 _MAKER, WRITTEN = "expression", "Written"
 USUAL_PERIOD, PERIODS = 64.0, (4.0, 4096.0)  # pixels: usual, and what may be set
@@ -78,7 +78,7 @@ class WorkshopState:
     @property
     def stages_most(self) -> int:
         """Gives for how many there may be: fewer where the text looks at more than one."""
-        return STAGES_MOST if len(self.scene.felt) < 2 else USUAL_STAGES
+        return most_stages(self.scene.felt)
 
     @property
     def staged(self) -> int:
@@ -149,5 +149,7 @@ class WorkshopState:
         told: dict[str, object] = {"text": self.text, "period": self.period}
         told |= {"values": Map(moved)} if moved else {}
         told |= {"level": level} if level else {}
-        told |= {"stages": self.staged} if self.scene.felt and self.staged != USUAL_STAGES else {}
+        told |= (
+            {"stages": self.staged} if self.scene.felt and self.staged != min(USUAL_STAGES, self.stages_most) else {}
+        )
         return DefineTexture(name, _MAKER, Map(told))

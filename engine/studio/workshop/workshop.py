@@ -20,7 +20,7 @@ from engine.studio.textures import structure_ready
 from engine.studio.workshop import workshop_records as wr
 from engine.studio.workshop.language_words import language_words
 from engine.studio.workshop.workshop_pictures import as_relief, as_seen, brightness, histogram_of, in_pieces
-from engine.texture.expression.defined import check_felt, check_woven
+from engine.texture.expression.defined import check_woven
 from engine.texture.expression.examined import costs_about, line_look, shimmer, values_at
 from engine.texture.expression.language import read
 from engine.texture.expression.written import FELT, Adjustable, WrittenError, WrittenText
@@ -215,7 +215,6 @@ def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
     """Returns a text that was read, and what its lines are.  WrittenError tells what is wrong with it."""
     written = read(asked.text)
     felt = dict(zip(FELT, asked.felt, strict=True))
-    check_felt(written)
     values = (*taken_values(written, asked.values), *((FELT[name], felt[name]) for name in written.felt))
     check_woven(asked.text, values, named, 0, asked.period)
     made = Expression(asked.level, asked.text, asked.period, 0, 0, values, False, named)

@@ -26,6 +26,7 @@ from engine.texture.expression.written import (
     WrittenError,
     WrittenText,
     is_colour,
+    most_stages,
 )
 from engine.texture.expression.written_ink import (
     Expression,
@@ -61,7 +62,6 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
     assert isinstance(seed, int)
     try:
         written = read(text)
-        check_felt(written)
         values = chosen_values(written, parameters.get("values", {}))
         for name in written.felt:  # as values more, which are the stroke's to set
             values = (*values, (FELT[name], _felt(name, parameters)))
@@ -69,13 +69,14 @@ def expression(parameters: Mapping[str, object], base: int) -> Expression:
         check_woven(text, one_way(values), named, seed, float(period))
     except WrittenError as error:
         raise FieldError(f"text, line {error.line}, column {error.column}", error.found, error.expected) from None
-    stages = parameters.get("stages", USUAL_STAGES)
+    most = most_stages(written.felt)
+    stages = parameters.get("stages", min(USUAL_STAGES, most))
     if not is_within(stages, STAGES_LEAST, STAGES_MOST, whole=True):
         raise FieldError("stages", described(stages), f"an integer from {STAGES_LEAST} to {STAGES_MOST}")
     assert isinstance(stages, int)
-    if len(written.felt) > 1 and stages > USUAL_STAGES:
+    if stages > most:
         told = ", ".join(written.felt)
-        raise FieldError("stages", described(stages), f"at most {USUAL_STAGES} of a text that goes by {told}")
+        raise FieldError("stages", described(stages), f"at most {most} of a text that goes by {told}")
     return Expression(base, text, float(period), level, seed, values, False, named, stages)
 
 
@@ -101,12 +102,6 @@ def expression_of_key(key: Sequence[object], of_key: Callable[[object], Instance
     told = {"text": key[2], "period": key[3], "level": key[4], "seed": key[5], **felt}
     made = expression({**told, "values": values, "named": named}, base)
     return replace(made, covers=key[0] == "expression-cover")
-
-
-def check_felt(written: WrittenText) -> None:
-    """WrittenError if a text goes by more than strokes have textures for."""
-    if len(written.felt) == len(FELT):
-        raise WrittenError((1, 1), "pressure, rim and direction", "two of them at most")
 
 
 def _felt(name: str, parameters: Mapping[str, object]) -> float:

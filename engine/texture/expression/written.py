@@ -13,7 +13,7 @@ from __future__ import annotations
 import difflib
 import itertools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
@@ -29,6 +29,7 @@ FELT = {
 }  # as values of a text beside those of its sliders
 STROKE_WAYS, FULL_TURN = 16, 360.0  # directions that differ, and degrees
 USUAL_STAGES, STAGES_LEAST, STAGES_MOST = 5, 2, 9  # pressures from 0 to 1, between which is mixed
+_STAGES_OF = (STAGES_MOST, STAGES_MOST, 5, 3)  # at most of a text that goes by so many: 144 textures for all three
 STROKE_NAMES = {
     "along": "how far along its stroke a place lies",
     "across": "how far to the right of its stroke a place lies, seen along it",
@@ -150,6 +151,11 @@ class WrittenText:
     def place(self, at: int) -> tuple[int, int]:
         """Returns the line and the column, from 1, of a character of the text."""
         return row_and_column(self.text, at)
+
+
+def most_stages(felt: Collection[str]) -> int:
+    """Returns for how many pressures, or distances from the rim, a text that looks at these may have textures."""
+    return _STAGES_OF[len(felt)]
 
 
 def row_and_column(text: str, at: int) -> tuple[int, int]:

@@ -4,8 +4,11 @@ import json
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from immutables import Map
 
+from engine.brush.heading import nearest_ways
 from engine.brush.ink import resolve
 from engine.brush.mixture import mixture
 from engine.brush.settings import from_json
@@ -81,6 +84,59 @@ def test_a_texture_is_turned_one_of_sixteen_ways_however_it_is_drawn(tmp_path, m
     inks = {ink for record in paint.values() for ink in record.inks}
     assert len(inks) > 3
     assert all(from_key(list(ink.key), {}) == ink for ink in inks)
+
+
+THREE = "0.25*fbm(x*9, y*9, 3)*pressure + 0.5*rim*noise(x*4, y*4) + 0.03*direction*pressure"
+FELT_BY = {"pressure": ("weight", 1.0), "rim": ("rim", 1.0), "direction": ("direction", 22.5)}
+RISING = np.linspace(0.0, 1.0, 128, dtype=np.float32)
+SWEPT = nearest_ways(np.stack(np.broadcast_arrays(RISING, 0.2 - RISING[:, None])).astype(np.float32))
+
+
+def felt_ink(text, **given):
+    texture = Texture("expression", Map({"text": text, "stages": 3}))
+    brush = from_json({"colour": "#000000", "ink": [{"texture": "t", **given}]})
+    return resolve(brush, {"t": texture}, 0, 0).under(TileKey(0, 0, 0), RISING + 0.0 * RISING[:, None], SLOPED, SWEPT)
+
+
+SLOPED = np.ascontiguousarray(np.broadcast_to(RISING[:, None], (128, 128)))
+
+
+@pytest.mark.parametrize("name", FELT_BY)
+@given(part=st.floats(0.0, 1.0))
+@settings(max_examples=3)
+def test_all_three_are_two_where_one_is_the_same_everywhere(name, part):
+    member, most = FELT_BY[name]
+    value = part * most if name != "direction" else round(part * 15) * most
+    told = f"({value!r}*(tau/360))" if name == "direction" else f"({value!r})"
+    three, two = felt_ink(THREE, **{member: value}), felt_ink(THREE.replace(name, told))
+    assert len(three[2]) == len(two[2]) > 3
+    assert np.abs(three[0] - two[0]).max() <= 2.0**-22
+
+
+def test_all_three_are_mixed_as_the_stroke_tells():
+    colour, amplitudes, inks = felt_ink("0.5*pressure + 0.3*rim + 0.03*direction")
+    ways = sum(SWEPT.part(k) * np.float32(0.03 * k * np.pi / 8) for k in range(16))
+    assert np.abs(colour[0] - (0.5 * RISING + 0.3 * SLOPED + ways)).max() < 1e-5
+    assert 9 < len(inks) <= 9 * 16
+    assert len(amplitudes) == 3 * len(inks)
+    assert all(from_key(list(ink.key), {}) == ink for ink in inks[:2])
+    with pytest.raises(FieldError, match="at most 3 of a text that goes by pressure, rim, direction"):
+        expression({"text": THREE, "stages": 4}, 0)
+
+
+def test_a_stroke_that_goes_by_all_three_is_the_same_however_it_is_drawn(tmp_path):
+    points = [[x, y, 0.3 + 0.1 * n] for n, (x, y) in enumerate(AROUND)]
+    text = "stripes(x*6, 0.1 + 0.5*pressure)*rim*direction"
+    played = shown(opened(tmp_path, text, {"do": "stroke", "points": points, "brush": BRUSH}).painting)
+    session = opened(tmp_path, text)
+    live = session.begin(0, (0, 0), from_json(BRUSH))
+    for point in points:
+        live.add(np.array([[*point, 0.0, 0.0, 0.0]]))
+        seen = live.preview(SEEN).data[:4]
+    session.finish(live)
+    assert (shown(session.painting) == played).all()
+    assert np.abs(seen - played).max() <= 2.0**-15
+    assert played[3].any()
 
 
 def test_a_direction_is_for_strokes_alone(tmp_path):
