@@ -12,6 +12,7 @@ from engine.session.session import Session
 from engine.studio.workshop import workshop
 from engine.studio.workshop import workshop_records as wr
 from engine.studio.workshop.workshop import Workshop
+from engine.texture.expression.written import WrittenError
 
 WALL = """brick = pick(#8a3a2a)
 worn = slider(0.4, 0, 1)
@@ -89,7 +90,18 @@ def test_a_text_is_seen_at_a_pressure_and_a_distance_from_the_rim(room):
     assert [line.least for line in scene.lines] == [pytest.approx(0.5), pytest.approx(0.2)]
     assert room.scene("direction/tau", felt=(1.0, 1.0, 90.0)).lines[-1].most == pytest.approx(0.25)
     assert room.scene("a = 0.3\na*x").felt == ()
-    assert room.scene("pressure*rim*direction").mistake is not None
+    assert room.scene("pressure*rim*direction").felt == ("pressure", "rim", "direction")
+
+
+def test_a_text_that_is_too_dear_from_near_is_told_of_behind_its_first_picture(room, monkeypatch):
+    def dear(*about):
+        raise WrittenError((1, 1), "60 microseconds a pixel", "50 at most")
+
+    monkeypatch.setattr(workshop, "check_woven", dear)
+    sent = room.ask(wr.WorkshopSet("noise(x, y)", size=SIZE))
+    assert sent[-1].mistake.found == "60 microseconds a pixel"
+    assert {one.mistake for one in sent[:-1] if isinstance(one, wr.WorkshopScene)} == {None}
+    assert "workshop texture" in room.pictures()
 
 
 def test_the_first_picture_comes_before_all_else(room):

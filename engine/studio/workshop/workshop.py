@@ -20,14 +20,15 @@ from engine.studio.textures import structure_ready
 from engine.studio.workshop import workshop_records as wr
 from engine.studio.workshop.language_words import language_words
 from engine.studio.workshop.workshop_pictures import as_relief, as_seen, brightness, histogram_of, in_pieces
-from engine.texture.expression.defined import check_woven
+from engine.texture.expression.defined import check_woven, checked_cost
 from engine.texture.expression.examined import costs_about, line_look, shimmer, values_at
-from engine.texture.expression.language import read
+from engine.texture.expression.language import COST_MOST, read
 from engine.texture.expression.written import FELT, Adjustable, WrittenError, WrittenText
 from engine.texture.expression.written_ink import Expression, Named
 
 _FIRST, _LEAST = 128, 32  # pixels of a picture that is shown before it is whole, at most; at least of a dear one,
-_SOON = 4e7  # nanoseconds that it takes, about
+_SOON = 5e7  # nanoseconds that it takes, about
+_DEARER = 4.0  # times as dear as from afar a text is from near, at most, or nearly
 _LOOKED = (96, 96)  # pixels over which the least and the greatest value of a line are sought
 _SHIMMERS = 64  # pixels square that are compared with the next finer level
 
@@ -39,7 +40,8 @@ class _Known:
     asked: wr.WorkshopSet
     made: Expression
     scene: wr.WorkshopScene
-    whole: bool = False  # whether all its small pictures were made
+    whole: bool = False  # whether all its small pictures were made,
+    checked: bool = False  # and it was looked at from near
 
     @property
     def number(self) -> int:
@@ -91,16 +93,22 @@ class Workshop(Owned):
         try:
             known = _read(asked, self._known, self._named(asked.text))
         except WrittenError as error:
-            mistake = wr.WorkshopMistake(error.line, error.column, error.found, error.expected)
-            good = self._known.scene if self._known is not None else wr.WorkshopScene("")
-            self._easel.send(replace(good, text=asked.text, mistake=mistake))
+            self._refuse(asked, error)
             return
         except Exception as error:
             self._easel.send(wr.WorkshopScene(asked.text, wr.WorkshopMistake(1, 1, faults.words(error), "a texture")))
             raise
         before, self._known = self._known, known
         yield from self._ready()
-        yield from self._picture(known)
+        drawn = known.scene.drawn
+        for _ in self._picture(known):
+            yield
+            if known.scene.drawn > drawn and not known.checked:
+                try:
+                    _check(known)
+                except WrittenError as error:
+                    self._refuse(asked, error)
+                    return
         if before is None or not _alike(before, asked):
             yield from self._lines(known)
             yield from self._levels(known)
@@ -111,6 +119,11 @@ class Workshop(Owned):
         side = min(_SHIMMERS, *asked.size)
         rect = Rect.at(*asked.origin, side, side)
         self._tell(shimmer=shimmer(known.made, asked.level, rect, known.number).rms * 255.0)
+
+    def _refuse(self, asked: wr.WorkshopSet, error: WrittenError) -> None:
+        mistake = wr.WorkshopMistake(error.line, error.column, error.found, error.expected)
+        good = self._known.scene if self._known is not None else wr.WorkshopScene("")
+        self._easel.send(replace(good, text=asked.text, mistake=mistake))
 
     def _named(self, text: str) -> Named:
         """Returns the textures that a text names, as the painting has them now."""
@@ -216,7 +229,7 @@ def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
     written = read(asked.text)
     felt = dict(zip(FELT, asked.felt, strict=True))
     values = (*taken_values(written, asked.values), *((FELT[name], felt[name]) for name in written.felt))
-    check_woven(asked.text, values, named, 0, asked.period)
+    cost = checked_cost(asked.text, values, named, 0, 0, asked.period)
     made = Expression(asked.level, asked.text, asked.period, 0, 0, values, False, named)
     lines = tuple(wr.WorkshopLine(line.name, written.place(line.at)[0], False, 1, 0.0) for line in written.lines)
     if before is not None and _alike(before, asked):
@@ -226,7 +239,16 @@ def _read(asked: wr.WorkshopSet, before: _Known | None, named: Named) -> _Known:
     scene = wr.WorkshopScene(asked.text, None, lines, sliders, drawn=drawn, felt=written.felt, pictured=pictured)
     if before is not None and before.asked.text == asked.text and len(before.scene.lines) == len(lines):
         scene = replace(scene, counts=before.scene.counts, least=before.scene.least, most=before.scene.most)
-    return _Known(asked, made, scene)
+    known = _Known(asked, made, scene)
+    if cost > COST_MOST / _DEARER:
+        _check(known)
+    return known
+
+
+def _check(known: _Known) -> None:
+    """Weaves a text from near, too, which is for a later piece of work where it can hardly be too dear there."""
+    made, known.checked = known.made, True
+    check_woven(made.text, made.values, made.named, 0, made.period)
 
 
 def _looks(whole: Rect, one: float, most: float) -> list[tuple[int, bool]]:

@@ -120,11 +120,18 @@ def _felt(name: str, parameters: Mapping[str, object]) -> float:
 def check_woven(text: str, values: Values, named: Named = (), seed: int = 0, period: float = PERIOD) -> None:
     """Weaves a text from near and far.  WrittenError if it cannot be, or is too dear."""
     for finer in (0, _NEAR):
-        woven = woven_line(text, values, named, seed, finer, period)
-        cost = woven.cost * (POINT_SIDE**2 if woven.rough or woven.jumps else 1)  # about; measuring needs kernels
-        if cost > COST_MOST:
-            told = f"{cost / 1000.0:.0f} microseconds a pixel"
-            raise WrittenError((1, 1), told, f"{COST_MOST / 1000.0:.0f} at most: fewer octaves, lines or samples")
+        checked_cost(text, values, named, seed, finer, period)
+
+
+def checked_cost(text: str, values: Values, named: Named, seed: int, finer: int, period: float) -> float:
+    """Returns about how many nanoseconds a pixel takes, so many levels finer than where the period is told.
+    WrittenError as `check_woven`."""
+    woven = woven_line(text, values, named, seed, finer, period)
+    cost = woven.cost * (POINT_SIDE**2 if woven.rough or woven.jumps else 1)  # about; measuring needs kernels
+    if cost > COST_MOST:
+        told = f"{cost / 1000.0:.0f} microseconds a pixel"
+        raise WrittenError((1, 1), told, f"{COST_MOST / 1000.0:.0f} at most: fewer octaves, lines or samples")
+    return cost
 
 
 def chosen_values(written: WrittenText, given: object) -> Values:

@@ -115,11 +115,13 @@ class Slopes:
         graph, known = self._graph, self._known[axis]
         if target not in known:
             flat = graph.constant(0.0)
-            known.update({node: graph.constant(float(way[axis])) for node, way in graph.ways.items()})
+            for node, way in graph.ways.items():
+                if node not in known:
+                    known[node] = graph.constant(float(way[axis]))
             for node in needed_by(graph, [target], known):
                 told = graph.operations[node]
                 rule = _RULES.get(told.code)
                 slopes = [known[part] for part in told.parts]
-                level = rule is None or all(slope == flat for slope in slopes)
+                level = rule is None or slopes.count(flat) == len(slopes)
                 known[node] = flat if level or rule is None else rule(graph, node, told, slopes)
         return known[target]
