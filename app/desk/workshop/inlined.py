@@ -63,7 +63,7 @@ def by_pressure(knots: Sequence[tuple[float, float]]) -> str:
             else f"step({end:.9g}, {PRESSURE})"
         )
         told += f" + {high - low:.9g}*{part}" if high != low else ""
-    return told.replace("+ -", "- ").replace(f"({PRESSURE} - 0)/1", PRESSURE)
+    return told.replace("+ -", "- ").replace(" 1*", " ").replace(f"({PRESSURE} - 0)/1", PRESSURE)
 
 
 def inlined(text: str, given: Given, often: float, names: tuple[str, Callable[[str], str]]) -> Inlined:

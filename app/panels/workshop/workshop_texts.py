@@ -43,7 +43,7 @@ def draw_texts(desk: Desk, field: TextField, keep: KeepText) -> None:
     imgui.same_line(0, gap)
     keep.draw(desk)
     imgui.same_line(0, gap)
-    hint = "Explain: what the brush paints with, as a text, as far as the language has words for it"
+    hint = "Explain: what the brush paints with, as a text"
     if w.icon_button("explain brush", icons.BRUSH, hint, enabled=bool(mixed_now(desk.hand).ink)):
         _explain(desk)
     imgui.same_line(0, gap)
