@@ -12,6 +12,7 @@ from collections import Counter
 
 import pytest
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 
 os.environ["INKFALL_CHECK_THREADS"] = "1"  # before any module of the program is loaded
 _OWN = tempfile.mkdtemp(prefix="inkfall-tests-")  # what is kept, and preferred, is not that of whoever runs the tests
@@ -25,6 +26,11 @@ os.environ |= {"XDG_STATE_HOME": f"{_OWN}/state", "XDG_CONFIG_HOME": f"{_OWN}/co
 # --hypothesis-profile=default looks for others.
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.load_profile("same")
+if hasattr(providers, "_local_constants"):
+    # Then no constant out of the modules that happen to be loaded: each change of one of them changed the examples, and
+    # each worker read a thousand modules for it.
+    _read = providers._get_local_constants
+    providers._get_local_constants = lambda: providers._local_constants if settings.default.derandomize else _read()
 
 
 FEW = 12  # slow proofs of a file
