@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterator
 from functools import cached_property
 from pathlib import Path
 
-from sources import PACKAGES, ROOT, Module, imported, modules, unit
+from sources import PACKAGES, ROOT, Module, imported, modules, program, unit
 
 STORED = Path(__file__).with_suffix(".json")
 LINES, BODY, METHODS, FILES = 400, 40, 15, 20  # most of a module, a function, a class, a folder
@@ -39,7 +39,7 @@ class House:
     where."""
 
     def __init__(self, root: Path = ROOT) -> None:
-        self.root, self.modules = root, modules(root)
+        self.root, self.modules = root, program() if root == ROOT else modules(root)
 
     # --- what there is -----------------------------------------------------------------------------------------------
 

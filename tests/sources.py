@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -46,6 +46,12 @@ def modules(root: Path = ROOT) -> dict[str, Module]:
             name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
             found[name] = Module(name, path)
     return found
+
+
+@cache
+def program() -> dict[str, Module]:
+    """Its own modules: each is read and taken apart once, whoever looks at them."""
+    return modules()
 
 
 def unit(name: str) -> str:

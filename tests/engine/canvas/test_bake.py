@@ -1,5 +1,7 @@
 """What was placed as paint: the source's values at every level at which the move is by whole pixels, ink included."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -21,6 +23,7 @@ from engine.texture.table import TextureError, from_key
 INKS = ([], [{"texture": "rock", "colour": "#e0d0b0", "period": 24}], [{"texture": "stripes", "colour": "#102080"}])
 
 
+@cache
 def painted(grid=16, strokes=((0, 20, 1), (2, 9, 2), (-2, 7, 0), (3, 12, 1), (0, 8, 0))):
     session = Session(first_painting(Header(grid=grid)))
     for n, (level, radius, ink) in enumerate(strokes):
@@ -30,7 +33,6 @@ def painted(grid=16, strokes=((0, 20, 1), (2, 9, 2), (-2, 7, 0), (3, 12, 1), (0,
     return next(iter(layers.layers(session.painting.root))).pyramid
 
 
-PAINTED = painted()
 poses = st.builds(
     Pose,
     at=st.tuples(st.integers(-99, 99), st.integers(-99, 99)),
@@ -65,13 +67,13 @@ def compare(pyramid, made, similarity, level, rect):
 @given(poses)
 def test_at_every_aligned_level_it_is_the_source(pose):
     similarity = pose.similarity
-    made = baked(PAINTED, similarity)
+    made = baked(painted(), similarity)
     aligned = similarity.aligned_from
     first = min(made.levels) if aligned is None else aligned
     for level in range(max(first, -4), 7):
         around = similarity.shown(Rect(-130, -130, 190, 190), 0, level)
         middle = Rect.at((around.x0 + around.x1) // 2 - 70, (around.y0 + around.y1) // 2 - 60, 140, 120)
-        painted_there = compare(PAINTED, made, similarity, level, middle)
+        painted_there = compare(painted(), made, similarity, level, middle)
         assert painted_there or level > 2
 
 
@@ -105,7 +107,7 @@ def test_nothing_stays_nothing():
 
 def test_one_that_was_placed_is_placed_by_both():
     first, second = Pose(at=(6, -2), turn=1).similarity, Pose(at=(-9, 5), levels=1, mirror=True).similarity
-    once, twice = baked(PAINTED, first.then(second)), baked(baked(PAINTED, first), second)
+    once, twice = baked(painted(), first.then(second)), baked(baked(painted(), first), second)
     for level in (0, 2, 5):
         rect = second.shown(first.shown(Rect(-40, -40, 60, 60), 0, 0), 0, 0).zoomed(level)
         rect = Rect.at(rect.x0, rect.y0, 150, 120)
@@ -116,7 +118,7 @@ def test_one_that_was_placed_is_placed_by_both():
 
 
 def test_a_key_tells_the_texture():
-    levels = baked(PAINTED, Pose(at=(3, 1), turn=3).similarity).levels
+    levels = baked(painted(), Pose(at=(3, 1), turn=3).similarity).levels
     inks = {ink for level in levels.values() for record in level.values() for ink in record.inks}
     assert inks
     for ink in inks:

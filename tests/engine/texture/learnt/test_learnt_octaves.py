@@ -3,6 +3,7 @@
 import hashlib
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -49,16 +50,21 @@ def source(picture, name="sample"):
 
 PLAIN, CLEAR = stones(), stones(alpha=True)
 SOURCES = {"plain": source(PLAIN), "clear": source(CLEAR)}
-MAPS = {"plain": as_picture("m", maps_fitted([PLAIN])), "clear": as_picture("m", maps_fitted([CLEAR]))}
 LEARNT = {"detail": "learnt"}
+
+
+@cache
+def learnt(name):
+    """The maps of a source, as a picture."""
+    return as_picture("m", maps_fitted([{"plain": PLAIN, "clear": CLEAR}[name]]))
 
 
 def made(kind, name="plain", level=-3, **parameters):
     given = {**LEARNT, "period": 48, **parameters}
     if kind != "series":
-        return instance(kind, given, level, 0, SOURCES[name], 2, MAPS[name])
+        return instance(kind, given, level, 0, SOURCES[name], 2, learnt(name))
     twice = np.concatenate([SOURCES[name].data] * 2, axis=1)
-    return instance(kind, {**given, "stages": 2, "weight": 0.3}, level, 0, ImageSource.of("s", twice), 2, MAPS[name])
+    return instance(kind, {**given, "stages": 2, "weight": 0.3}, level, 0, ImageSource.of("s", twice), 2, learnt(name))
 
 
 @st.composite
@@ -132,10 +138,10 @@ def test_threads_and_order_make_no_difference():
 @pytest.mark.parametrize("name", ["plain", "clear"])
 def test_what_was_learnt_survives_being_kept(name):
     picture = {"plain": PLAIN, "clear": CLEAR}[name]
-    maps, again = maps_fitted([picture]), maps_of(MAPS[name])
+    maps, again = maps_fitted([picture]), maps_of(learnt(name))
     for field in ("axes", "edges", "loud", "sharp", "rough"):
         assert np.array_equal(getattr(maps, field), getattr(again, field))
-    assert as_picture("m", maps).sha == MAPS[name].sha
+    assert as_picture("m", maps).sha == learnt(name).sha
 
 
 def told_by(numbers, size=(64, 90)):
@@ -163,7 +169,7 @@ def test_a_picture_that_tells_no_maps_changes_nothing(numbers):
 @pytest.mark.parametrize("kind", ["image", "matched", "series"])
 @pytest.mark.parametrize(("name", "other"), [("plain", "clear"), ("clear", "plain")])
 def test_maps_of_another_picture_are_no_fault(kind, name, other):
-    found = instance(kind, {**LEARNT, "period": 48, "stages": 2}, 0, 0, SOURCES[name], 2, MAPS[other])
+    found = instance(kind, {**LEARNT, "period": 48, "stages": 2}, 0, 0, SOURCES[name], 2, learnt(other))
     for texture in (found, found.cover or found):
         for level in (1, 2, 5):
             rect = Rect.at(3, 4, 20, 10)
@@ -223,7 +229,7 @@ def test_the_kernel_makes_what_the_plain_form_makes(picture, octave):
 
 def test_the_mean_of_four_pixels_is_the_pixel_that_they_lie_in():
     inner = np.clip(PLAIN, 0.25, 0.75)  # where nothing is cut off at black or white
-    middle = instance("image", LEARNT, 0, 0, source(inner), 2, MAPS["plain"])
+    middle = instance("image", LEARNT, 0, 0, source(inner), 2, learnt("plain"))
     own = middle.appearance(0, Rect.at(0, 0, 96, 96))[:3]
     assert np.abs(reduce(middle.appearance(1, Rect.at(0, 0, 192, 192))[:3]) - own).max() < 3e-5
 
@@ -348,7 +354,7 @@ PIXELS = {
 @pytest.mark.parametrize(("kind", "name"), PIXELS)
 def test_pixels_stay(kind, name):
     texture = made(kind, name, roughness=0.6) if kind == "matched" else made(kind, name)
-    digest = hashlib.sha256(MAPS[name].sha.encode())
+    digest = hashlib.sha256(learnt(name).sha.encode())
     for level in (-2, -1, 0, 1, 4):
         digest.update(texture.appearance(level, Rect.at(-9, 4, 50, 40)).tobytes())
     assert digest.hexdigest()[:16] == PIXELS[kind, name]
