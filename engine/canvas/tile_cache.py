@@ -71,8 +71,8 @@ class TileCache:
         self.front = Front(min(budget // 8, _FRONT))
         self._lock = threading.Lock()
 
-    def look_at(self, level: int) -> None:
-        """Tells which level is seen from now on."""
+    def look_at(self, level: int | None) -> None:
+        """Tells which level is seen from now on; None: no one more than others."""
         if level != self.level:
             with self._lock:
                 self.level = level

@@ -22,7 +22,7 @@ from engine.terrain.seen.land_tiles import FINER, QUADS, TEXELS, TileKey
 from engine.terrain.seen.tile_light import towards_sun
 from engine.terrain.seen.tile_making import SHADE_MARGIN, TileMaker
 
-LAND_CACHE = 32 << 20  # bytes of evaluated tiles, beside those that were there before, that land leaves
+LAND_CACHE = 32 << 20  # bytes of evaluated tiles while land is seen, those of the canvas, which is not, among them
 
 _Where = Callable[[int], "list[Rect] | None"]
 
@@ -38,7 +38,7 @@ class LandMaker(Owned):
         self._changes: deque[tuple[int, _Where]] = deque(maxlen=STEPS_KEPT)
         self._wanted: dict[TileKey, int] = {}
         self._open: deque[TileKey] = deque()
-        self._others = 0  # bytes of evaluated tiles that there were before the land was looked at
+        self._canvas: int | None = None  # the level that was looked at before the land was
         self.handlers: Handlers = {AskLand: self._ask, AskGround: self._find}
 
     @property
@@ -60,19 +60,22 @@ class LandMaker(Owned):
                 self._easel.send(LandMade(tile, self._revision))
                 break
             self._open.popleft()
-        if not self._open and self._easel.live is None:
-            self._easel.session.cache.shrink(self._others + LAND_CACHE, alone=True)
+        if self._easel.live is None:
+            self._easel.session.cache.shrink(LAND_CACHE, alone=True)
 
     def _ask(self, request: AskLand) -> None:
-        begins = not self._wanted
+        cache, began = self._easel.session.cache, bool(self._wanted)
         self._wanted = dict(request.tiles)
         if not self._wanted:
             self._open.clear()
             self._maker = self._painting = None
             self._changes.clear()
+            if began and cache.level is None:
+                cache.look_at(self._canvas)
             return
-        if begins:
-            self._others = self._easel.session.cache.held
+        if cache.level is not None:
+            self._canvas = cache.level
+            cache.look_at(None)  # tiles of all levels are alike
         self._follow()
         self._open = deque(self._wanted)
 
