@@ -19,8 +19,11 @@ VAPOUR: dict[str, Any] = {
     "shape": {"ratio": 0.62, "scatter": 1.1, "count": 3},
     "dynamics": {"radius": "pressure"},
 }
+LOW = 0.2, 0.5, 0.9, 0.7, 1.0, 0.8, 0.45, 0.6, 0.4, 0.25, 0.3, 0.1, 0.1  # humps of clouds, from left to right
+TOWERING = 0.1, 0.3, 0.15, 0.1, 0.35, 0.5, 0.4, 0.8, 1.0, 0.75, 0.95, 0.6, 0.4
+VEIL = 0.5, 0.9, 1.0, 0.6, 0.4, 0.7, 0.9, 0.5, 0.3, 0.2
 Points = list[tuple[float, float, float]]
-GENERATORS = ("houses", "trees", "conifers", "hedge", "meadow", "reeds", "fence", "stone-wall", "path", "stones")
+GENERATORS = ("wood", "village", "path", "stone-wall", "hedge", "meadow", "trees")
 BLADES = {"do": "texture", "name": "grass", "maker": "expression", "bundled": "grass", "period": 40}
 
 
@@ -55,18 +58,18 @@ def placed(layer: str, name: str, radius: float, points: Points, **values: float
     return {"do": "stroke", "layer": layer, "points": points, "brush": brush, "seed": round(points[0][0])}
 
 
-def soft(points: Points, radius: float, colour: str, opacity: float) -> dict[str, Any]:
+def soft(layer: str, points: Points, radius: float, colour: str, opacity: float) -> dict[str, Any]:
     """A stroke of light or shade over the hills."""
-    return brushed("Hills", points, radius, colour, hardness=0, opacity=opacity, flow=0.5)
+    return brushed(layer, points, radius, colour, hardness=0, opacity=opacity, flow=0.5)
 
 
-def heap(x: float, y: float, wide: float, high: float, seed: int) -> Points:
-    """A line over which a cloud heaps up: thin at both ends, with humps between."""
+def heap(x: float, y: float, wide: float, high: float, ends: tuple[float, float], humps: tuple[float, ...]) -> Points:
+    """A line over which a cloud heaps up: `ends`: which parts of it rise at the left and fall at the right."""
     places = []
-    for k in range(13):
-        t, hump = k / 12, 0.5 + 0.5 * math.sin(1.9 * k + seed)
-        swell = math.sin(math.pi * t) ** 0.7
-        places.append((x + wide * t, y - high * swell * (0.35 + 0.65 * hump), 0.08 + 0.92 * swell * (0.4 + 0.6 * hump)))
+    for k, hump in enumerate(humps):
+        t = k / (len(humps) - 1)
+        swell = min(1.0, t / ends[0]) ** 0.6 * min(1.0, (1 - t) / ends[1]) ** 0.9
+        places.append((x + wide * t, y - high * swell * hump, 0.08 + 0.92 * swell * (0.3 + 0.7 * hump)))
     return line(*places)
 
 
@@ -90,13 +93,19 @@ def sky() -> list[dict[str, Any]]:
     ramp = [[0, "#5489c4"], [0.4, "#8fb6da"], [0.72, "#d5dfde"], [1, "#f7e3bd"]]
     blue = {"do": "texture", "name": "morning", "maker": "gradient", "from": [0, 0], "to": [0, 330], "ramp": ramp}
     wide = brushed("Sky", [(-300.0, 240.0, 1.0), (1580.0, 240.0, 1.0)], 340, "#9fc0dc", ink=[{"texture": "morning"}])
-    veils = (560, 206, 330, 14, 1), (150, 246, 300, 8, 6), (980, 242, 330, 8, 4), (430, 268, 420, 6, 2)
+    veils = (
+        heap(560, 206, 330, 14, (0.6, 0.3), VEIL),
+        heap(150, 246, 300, 8, (0.2, 0.7), VEIL[::-1]),
+        heap(980, 242, 330, 8, (0.4, 0.4), VEIL),
+        heap(430, 268, 420, 6, (0.3, 0.6), VEIL[::-1]),
+    )
     return [
         blue,
         wide,
-        *cloud(heap(40, 150, 560, 44, 3), 42),
-        *cloud(heap(850, 112, 470, 52, 8), 50),
-        *(brushed("Sky", heap(*about), 15, "#fbf0e0", opacity=0.42, **VAPOUR) for about in veils),
+        *cloud(heap(70, 152, 470, 62, (0.2, 0.8), LOW), 46),
+        *cloud(heap(800, 118, 560, 58, (0.75, 0.1), TOWERING), 50),
+        *cloud(heap(704, 142, 130, 16, (0.4, 0.5), (0.3, 0.8, 1, 0.5, 0.6, 0.2)), 19),
+        *(brushed("Sky", veil, 15, "#fbf0e0", opacity=0.42, **VAPOUR) for veil in veils),
     ]
 
 
@@ -116,61 +125,58 @@ def hills() -> list[dict[str, Any]]:
     pressed = {"dynamics": {"radius": "pressure"}}
     low = [(x, max(y + 260, 820), p) for x, y, p in hill]
     return [
-        brushed("Hills", far, 46, "#93abbb", hardness=0.9, ink=[{**rock, "amount": 0.3, "colour": "#aabfca"}]),
-        brushed("Hills", [(x, y + 70, p) for x, y, p in far], 70, "#8fa9a6", hardness=0.5),
-        brushed("Hills", middle, 62, "#829c72", hardness=0.9, ink=[{**rock, "colour": "#a3b383"}]),
+        brushed("Far", far, 46, "#93abbb", hardness=0.9, ink=[{**rock, "amount": 0.3, "colour": "#aabfca"}]),
+        brushed("Far", [(x, y + 70, p) for x, y, p in far], 70, "#8fa9a6", hardness=0.5),
+        brushed("Far", middle, 62, "#829c72", hardness=0.9, ink=[{**rock, "colour": "#a3b383"}]),
         brushed(
-            "Hills",
+            "Far",
             [(x, y + 90, p) for x, y, p in middle],
             90,
             "#78965c",
             hardness=0.7,
             ink=[{**rock, "colour": "#9cae6c"}],
         ),
-        *(brushed("Hills", points, 17, colour, hardness=0.6, opacity=0.75, **pressed) for points, colour in fields),
-        soft(line((-60, 470, 1), (300, 470, 1), (1000, 462, 1), (1340, 470, 1)), 60, "#e6dcb4", 0.4),
-        brushed("Hills", hill, 172, "#6f8d3e", hardness=0.95, ink=blades),
-        brushed("Hills", low, 240, "#5d7a36", hardness=0.8, ink=blades[1:]),
-        soft(line((180, 520, 1), (330, 430, 1), (520, 352, 1)), 90, "#e9dd84", 0.42),
-        soft(line((830, 350, 1), (980, 450, 1), (1160, 580, 1)), 100, "#26452f", 0.34),
-        soft(line((150, 640, 1), (460, 610, 1), (600, 600, 1)), 60, "#e4d87e", 0.3),
-        soft(line((-60, 800, 1), (500, 790, 1), (1340, 800, 1)), 100, "#24401f", 0.45),
+        *(brushed("Far", points, 17, colour, hardness=0.6, opacity=0.75, **pressed) for points, colour in fields),
+        soft("Far", line((-60, 470, 1), (300, 470, 1), (1000, 462, 1), (1340, 470, 1)), 60, "#e6dcb4", 0.4),
+        brushed("Hill", hill, 172, "#6f8d3e", hardness=0.95, ink=blades),
+        brushed("Hill", low, 240, "#5d7a36", hardness=0.8, ink=blades[1:]),
+        soft("Hill", line((180, 520, 1), (330, 430, 1), (520, 352, 1)), 90, "#e9dd84", 0.42),
+        soft("Hill", line((830, 350, 1), (980, 450, 1), (1160, 580, 1)), 100, "#26452f", 0.34),
+        soft("Hill", line((150, 640, 1), (460, 610, 1), (600, 600, 1)), 60, "#e4d87e", 0.3),
+        soft("Hill", line((-60, 800, 1), (500, 790, 1), (1340, 800, 1)), 100, "#24401f", 0.45),
     ]
 
 
 def village() -> list[dict[str, Any]]:
     """The strokes of generators: from the back to the front."""
+    way = line(
+        (690, 352, 0.1), (800, 420, 0.16), (600, 480, 0.23), (690, 590, 0.37), (560, 690, 0.58), (660, 840, 0.85)
+    )
+    field = line(
+        (-40, 780, 1), (180, 750, 1), (370, 752, 1), (490, 800, 1), (590, 910, 1), (740, 910, 1), (840, 800, 1),
+        (930, 766, 1), (1130, 786, 1), (1320, 800, 1),
+    )  # fmt: skip
+    left = line(
+        (620, 410, 0.47), (420, 430, 0.51), (250, 500, 0.6), (330, 556, 0.7), (430, 566, 0.74), (560, 550, 0.79)
+    )
+    right = line((806, 426, 0.47), (930, 456, 0.51), (980, 510, 0.6), (900, 580, 0.7), (760, 574, 0.79))
+    far = line((-30, 412, 0.33), (330, 416, 0.31), (930, 404, 0.31), (1310, 396, 0.35))
     return [
-        placed("Woods", "conifers", 24, line((20, 404, 0.6), (160, 400, 0.8), (330, 412, 0.7))),
-        placed("Woods", "conifers", 26, line((930, 404, 0.7), (1100, 384, 0.8), (1290, 392, 1)), many=0.8),
-        placed("Top", "trees", 34, line((430, 352, 0.7), (500, 328, 0.9), (560, 318, 0.8)), season=0.45, many=0.8),
-        placed("Top", "houses", 40, line((556, 330, 0.8), (640, 316, 0.9), (760, 330, 0.8))),
-        placed("Top", "trees", 38, line((770, 346, 0.9), (826, 360, 0.8)), season=0.3),
-        placed(
-            "Path",
-            "path",
-            80,
-            line((690, 352, 0.12), (800, 420, 0.2), (600, 480, 0.28), (690, 590, 0.45), (560, 690, 0.7), (660, 840, 1)),
-        ),
-        placed("Houses", "houses", 62, line((416, 436, 0.8), (520, 416, 0.82), (640, 406, 0.78))),
-        placed("Houses", "trees", 46, line((360, 470, 0.8), (404, 452, 0.7)), season=0.6),
-        placed("Houses", "houses", 62, line((800, 430, 0.74), (900, 450, 0.8))),
-        placed("Houses", "trees", 48, line((936, 478, 0.9), (1010, 506, 1)), season=0.2),
-        placed("Lower", "houses", 90, line((300, 574, 0.84), (430, 548, 0.88), (540, 540, 0.9))),
-        placed("Lower", "houses", 90, line((760, 552, 0.84), (880, 574, 0.86))),
-        placed("Walls", "stone-wall", 50, line((770, 606, 0.8), (880, 622, 0.85), (1000, 660, 0.95), (1120, 724, 1))),
-        placed("Walls", "fence", 54, line((60, 700, 1), (210, 668, 0.95), (360, 646, 0.9), (500, 640, 0.85)), worn=0.2),
-        placed("Front", "hedge", 56, line((1000, 612, 0.8), (1120, 650, 0.95), (1270, 710, 1)), bloom=0.4),
-        placed("Front", "meadow", 92, line((-40, 780, 1), (180, 750, 1), (380, 748, 1), (500, 780, 1)), flowery=0.8),
-        placed("Front", "meadow", 92, line((760, 770, 1), (930, 764, 1), (1130, 786, 1), (1320, 800, 1)), flowery=0.65),
-        placed("Front", "stones", 44, line((740, 700, 0.8), (830, 716, 0.9), (900, 740, 1)), many=0.5),
+        placed("Woods", "wood", 97, far, firs=0.6),
+        placed("Top", "wood", 130, line((940, 452, 0.3), (1050, 500, 0.4), (1230, 580, 0.5)), firs=0.3),
+        placed("Path", "path", 97, way),
+        placed("Houses", "village", 97, line((540, 344, 0.35), (640, 320, 0.39), (760, 336, 0.37))),
+        placed("Houses", "village", 97, left),
+        placed("Houses", "village", 97, right),
+        placed("Walls", "stone-wall", 50, line((770, 652, 0.8), (880, 658, 0.85), (1000, 682, 0.95), (1120, 730, 1))),
+        placed("Front", "hedge", 56, line((1000, 622, 0.8), (1120, 655, 0.95), (1270, 712, 1)), bloom=0.4),
+        placed("Front", "meadow", 97, field, flowery=0.8),
         placed("Front", "trees", 150, line((96, 784, 1), (116, 782, 1)), many=1, season=0.2),
-        placed("Front", "reeds", 76, line((1120, 806, 1), (1210, 800, 1), (1310, 808, 1))),
     ]
 
 
 def main() -> None:
-    names = "Sky", "Hills", "Woods", "Top", "Path", "Houses", "Lower", "Walls", "Front"
+    names = "Sky", "Far", "Woods", "Hill", "Top", "Path", "Houses", "Walls", "Front"
     commands = [
         {"inkfall": 2, "frame": [0, 0, *FRAME], "seed": SEED},
         *({"do": "texture", "name": name, "maker": "expression", "bundled": name} for name in GENERATORS),
