@@ -82,9 +82,12 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
         room = PART_WINDOWS if by == 1 else 0
         return shot, windows_of(seen, camera, cover, camera.finest(size), wet, cells, by == 1, gone, room)
 
-    shot, windows = shown(_COARSER_FIRST, CELLS // _COARSER_FIRST)
-    first = next(iter(refinement(windows, replace(shot, samples=1), wide, gone, quarter=False)))
-    send(StillCome(request.number, frozen(first.picture), _COARSER_FIRST, last=False))
+    def first() -> StillCome:
+        shot, windows = shown(_COARSER_FIRST, CELLS // _COARSER_FIRST)
+        stage = next(iter(refinement(windows, replace(shot, samples=1), wide, gone, quarter=False)))
+        return StillCome(request.number, frozen(stage.picture), _COARSER_FIRST, last=False)
+
+    send(first())  # whose windows are gone before those of the whole picture are made
     shot, windows = shown(1, CELLS)
     found = picture_error(seen, windows, camera, request.size)
     give_back()  # what came and went while heights and their error were worked out: as much again, and more

@@ -1,6 +1,7 @@
 """Tiles of land for the window: a stroke makes those anew that it meets, and no painting is too bare to be land."""
 
 import threading
+import weakref
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -11,10 +12,11 @@ from engine.numeric.address import Rect
 from engine.painting.commands import parse
 from engine.painting.value import Painting
 from engine.session.session import Session
-from engine.studio.land import land_maker
+from engine.studio.land import land_maker, still_picture
 from engine.studio.land.land_maker import LandMaker
 from engine.studio.land.land_records import AskGround, AskLand, AskStill, GroundFound
 from engine.studio.land.still_picture import StillPictures
+from engine.terrain.camera import windows_of
 from engine.terrain.seen.eye import Eye
 from engine.terrain.seen.land_tiles import TileKey
 
@@ -110,3 +112,21 @@ def test_a_picture_at_rest_that_is_not_wanted_any_more_does_not_come(easel):
     assert come.wait(200)
     assert [told.number for told in easel.sent if told.last] == [2]
     assert easel.sent[-1].pixels.shape == (40, 64, 3)
+
+
+def test_windows_of_the_small_picture_are_gone_before_those_of_the_whole_one_are_made(easel, monkeypatch):
+    """Once they stayed until these were there: 7 MB deep down, when the view takes the most memory."""
+    made, held = [], []
+
+    def watched(*asked):
+        held.append(sum(one.nbytes for kept in made if (one := kept()) is not None))
+        windows = windows_of(*asked)
+        made.extend(weakref.ref(array) for array in (windows.heights, windows.tops, windows.colours))
+        return windows
+
+    monkeypatch.setattr(still_picture, "CELLS", 256)
+    monkeypatch.setattr(still_picture, "windows_of", watched)
+    asked = AskStill(1, Eye(Fraction(250), Fraction(600), 80.0), 80.0, (48, 30))
+    still_picture._take(easel.session.painting, asked, lambda: False, easel.send)
+    assert held == [0, 0]
+    assert [told.by for told in easel.sent[:2]] == [4, 1]
