@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 import numpy as np
 
+from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
 from engine.terrain.camera import WINDOW_RIM, Camera, Windows
 from engine.terrain.caster import CELLS_PER_PIXEL
@@ -20,14 +21,22 @@ _WIDER = 1.2  # than a pixel, that rays may be (as `daylight` has them)
 _BEYOND = 1.05  # times what the picture shows, that is looked at
 
 
-def picture_error(land: Land, windows: Windows, camera: Camera, size: tuple[int, int]) -> Remainder | None:
+def picture_error(
+    land: Land,
+    windows: Windows,
+    camera: Camera,
+    size: tuple[int, int],
+    cancelled: Callable[[], bool] | None = None,
+) -> Remainder | None:
     """Returns what it comes to, None where that is not known: the bound of each part of a window, seen as near as any
     of it lies that the picture shows by this window.  `hard`: at most, in any of its pixels; `rms`: over all of them,
-    each taking as much room as its distance lets it."""
+    each taking as much room as its distance lets it.  Cancelled where `cancelled` says so, asked before each part."""
     cone = 2.0 * math.tan(math.radians(camera.fov) / 2) / size[0]
     finest, hard, squares, room = windows.levels[-1], 0.0, 0.0, 0.0
     for w, level in enumerate(windows.levels):
         for rect, away in _parts(windows, w, camera, size):
+            if cancelled is not None and cancelled():
+                raise Cancelled
             found = land.bound(level, rect)
             if found is None:
                 return None

@@ -89,7 +89,7 @@ def _take(painting: Painting, request: AskStill, gone: Callable[[], bool], send:
 
     send(first())  # whose windows are gone before those of the whole picture are made
     shot, windows = shown(1, CELLS)
-    found = picture_error(seen, windows, camera, request.size)
+    found = picture_error(seen, windows, camera, request.size, gone)
     give_back()  # what came and went while heights and their error were worked out: as much again, and more
     error = None if found is None else (found.rms, found.hard)
     for stage in refinement(windows, shot, wide, gone, quarter=False):

@@ -50,6 +50,8 @@ def windows(seen, azimuth, **more):
 def test_what_a_picture_shows_lies_no_farther_off_than_it_tells(seen, azimuth):
     camera, made = windows(seen, azimuth, sharp=True)
     told = picture_error(seen, made, camera, SIZE)
+    with pytest.raises(Cancelled):
+        picture_error(seen, made, camera, SIZE, lambda: True)
     right, up, forward = camera.axes()
     pixel = 2 * math.tan(math.radians(camera.fov) / 2) / SIZE[0]
     rays, hits = np.zeros((60, 6)), np.empty((60, 2))
