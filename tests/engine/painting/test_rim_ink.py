@@ -39,18 +39,23 @@ def shown(painting):
     return evaluate(next(iter(layers(painting.root))).pyramid, 0, SEEN).data[:4]
 
 
-@pytest.mark.parametrize("more", [{}, {"edge": {"curve": "wet"}}, {"grain": {"texture": "rock", "amount": 0.5}}])
-def test_a_rim_is_another_colour_and_the_same_however_it_is_drawn(tmp_path, more):
-    text, brush = "mix(#ff0000, #0000ff, rim)", {**BRUSH, **more}
-    played = shown(opened(tmp_path, text, {"do": "stroke", "points": POINTS, "brush": brush}).painting)
+def drawn_alike(tmp_path, text, brush, points):
+    """What a stroke looks like, which is the same played at once and drawn point by point, and nearly so on its way."""
+    played = shown(opened(tmp_path, text, {"do": "stroke", "points": points, "brush": brush}).painting)
     session = opened(tmp_path, text)
     live = session.begin(0, (0, 0), from_json(brush))
-    for point in POINTS:
+    for point in points:
         live.add(np.array([[*point, 0.0, 0.0, 0.0]]))
         seen = live.preview(SEEN).data[:4]
     session.finish(live)
     assert (shown(session.painting) == played).all()
     assert np.abs(seen - played).max() <= 2.0**-15
+    return played
+
+
+@pytest.mark.parametrize("more", [{}, {"edge": {"curve": "wet"}}, {"grain": {"texture": "rock", "amount": 0.5}}])
+def test_a_rim_is_another_colour_and_the_same_however_it_is_drawn(tmp_path, more):
+    played = drawn_alike(tmp_path, "mix(#ff0000, #0000ff, rim)", {**BRUSH, **more}, POINTS)
     red, _, blue, alpha = played[:, 40, 90]
     assert blue > 0.9 * alpha > 10 * red
     if not more:
@@ -126,16 +131,7 @@ def test_all_three_are_mixed_as_the_stroke_tells():
 
 def test_a_stroke_that_goes_by_all_three_is_the_same_however_it_is_drawn(tmp_path):
     points = [[x, y, 0.3 + 0.1 * n] for n, (x, y) in enumerate(AROUND)]
-    text = "stripes(x*6, 0.1 + 0.5*pressure)*rim*direction"
-    played = shown(opened(tmp_path, text, {"do": "stroke", "points": points, "brush": BRUSH}).painting)
-    session = opened(tmp_path, text)
-    live = session.begin(0, (0, 0), from_json(BRUSH))
-    for point in points:
-        live.add(np.array([[*point, 0.0, 0.0, 0.0]]))
-        seen = live.preview(SEEN).data[:4]
-    session.finish(live)
-    assert (shown(session.painting) == played).all()
-    assert np.abs(seen - played).max() <= 2.0**-15
+    played = drawn_alike(tmp_path, "stripes(x*6, 0.1 + 0.5*pressure)*rim*direction", BRUSH, points)
     assert played[3].any()
 
 
