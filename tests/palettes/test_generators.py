@@ -12,7 +12,7 @@ from engine.studio.textures.swatches import painted
 from engine.texture.expression.defined import expression
 from engine.texture.expression.library.bundled_texts import generator_library
 from engine.texture.expression.placing.centre_line import simplified
-from engine.texture.expression.placing.generated import LaidStroke
+from engine.texture.expression.placing.generated import LaidStroke, _drawn
 
 NAMES = sorted(generator_library())
 LINE = simplified([(0.1 * n, 0.1 * np.sin(0.2 * n), 1.0) for n in range(30)])
@@ -30,6 +30,8 @@ def test_each_shows_things_near_and_far(name):
         rect = Rect.at(*at, 44, 36)
         seen, finer = laid.means(level, rect), laid.means(level + 1, rect.zoomed(1))
         assert np.isfinite(seen).all()
+        tile = Rect.at(at[0] + 13, at[1] + 9, 19, 17)
+        assert (seen[:, *tile.slices(rect)] == _drawn(laid, level, tile)).all(), level
         reduced = 0.25 * (finer[:, ::2, ::2] + finer[:, 1::2, ::2] + finer[:, ::2, 1::2] + finer[:, 1::2, 1::2])
         assert np.square(seen - reduced).mean() ** 0.5 < SHIMMER, level
     whole = laid.means(0, laid.rect(0))
