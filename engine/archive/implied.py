@@ -43,6 +43,7 @@ MOST = 4  # inks of a tile
 STRIDE = 4  # of the pixels by which terms are found,
 FEW = 1 << 12  # unless a tile has no more than these
 SQUARE = 4  # tiles along the side of a square that is evaluated at a time
+AT_ONCE = 8 << 20  # bytes of the planes above a square, up to which its tiles are worked on together
 SHARED = 8  # inks whose appearance is held for a whole square
 _NOTHING = Rect(0, 0, 0, 0)
 ONE = 1 << 30  # unit of p, q, s
@@ -90,8 +91,17 @@ def without(values: Cascade, tiles: Sequence[Tile]) -> list[Coded]:
         return [(key, record, None) for key, record in tiles]
     out: list[Coded] = []
     for _, square in groupby(tiles, key=lambda tile: square_of(tile[0])):
-        out.extend(_square_without(values, list(square)))
+        for part in _parts(list(square)):
+            out.extend(_square_without(values, part))
     return out
+
+
+def _parts(square: list[Tile]) -> list[list[Tile]]:
+    """Returns the tiles of a square that are worked on together: all, or each by itself where so many inks lie that
+    the planes above all of them would take too many bytes."""
+    inks = set[Instance]().union(*(record.inks for _, record in square))
+    together = 4 * _bounds(square).parents().area * (COLOURS + 3 * len(inks)) <= AT_ONCE
+    return [square] if together else [[tile] for tile in square]
 
 
 def needed(tiles: Iterable[Tile] | Sequence[Coded]) -> dict[int, Rect]:

@@ -101,6 +101,14 @@ def test_every_residual_comes_back(name):
     assert (name == "no ink") == all(entry is None for _, _, entry in tiles)
 
 
+@pytest.mark.parametrize("name", SCENES)
+def test_tiles_of_many_inks_are_the_same_each_by_itself(name, monkeypatch):
+    pyramid = painted(*SCENES[name])
+    together = pack(coded(pyramid))
+    monkeypatch.setattr(implied, "AT_ONCE", 0)
+    assert pack(coded(pyramid)) == together
+
+
 def test_little_is_left_of_rock():
     """Where one stroke covers all, its colour is amplitude times rock: nothing but roundings remains."""
     pyramid = painted(([[-200, 150], [500, 150]], 0, {**ROCK, "radius": 400, "hardness": 1.0}))
