@@ -22,6 +22,7 @@ from engine.keeping.state_folder import state_folder
 _FOLDER = "spill"
 _LEAST = 512  # bytes that a piece takes of the file
 _SPARE = 4 << 30  # bytes of the disk that are left to others by what can be made again
+_ASKED = 16 << 20  # bytes that are written before it is asked again
 PLACE_OVERHEAD = 350  # bytes of memory in which it is told where a piece lies, roughly
 
 
@@ -65,14 +66,18 @@ class Spill:
         self._places: dict[int, _Place] = {}  # of the pieces
         self._freed: deque[ReferenceType[Spilled]] = deque()  # places that are to be added to those that are free
         self._tell = self._freed.append  # one for all places: each would have an object of its own else
+        self._ask_from = 0  # bytes of the file at which it is asked how much room the disk has
         self.held = self.length = 0
 
-    def put(self, piece: bytes) -> Spilled | None:
-        """Puts a piece away; None where the disk is full, or has no folder for it."""
+    def put(self, piece: bytes, spare: bool = False) -> Spilled | None:
+        """Puts a piece away; None where the disk is full, or has no folder for it; or, where it is to `spare` others,
+        little room for them."""
         size = _rounded(len(piece))
         with self._lock:
             self._collect()
             free = self._room.get(size)
+            if spare and not free and not self._is_roomy():
+                return None
             at = free[-1] if free else self.length
             try:
                 file = self._opened()
@@ -93,11 +98,7 @@ class Spill:
 
     def put_spare(self, piece: bytes) -> Spilled | None:
         """As `put`, of what can be made again: None where the disk has little room for others."""
-        with suppress(OSError):
-            folder = spill_folder() if self._folder is None else self._folder
-            if shutil.disk_usage(folder).free >= _SPARE:
-                return self.put(piece)
-        return None
+        return self.put(piece, spare=True)
 
     def piece(self, at: int, size: int) -> bytes:
         """Returns what lies at a place.  OSError if it cannot be read."""
@@ -111,6 +112,15 @@ class Spill:
         with self._lock:
             if self._file is not None:
                 self._file.close()
+
+    def _is_roomy(self) -> bool:
+        """Tells whether others have enough of the disk: it is asked from time to time."""
+        if self.length >= self._ask_from:
+            with suppress(OSError):
+                folder = spill_folder() if self._folder is None else self._folder
+                if shutil.disk_usage(folder).free >= _SPARE:
+                    self._ask_from = self.length + _ASKED
+        return self.length < self._ask_from
 
     def _collect(self) -> None:
         while self._freed:

@@ -148,7 +148,7 @@ class StepLine:
         """Puts what the farthest coded step in memory holds away on disk, as far as there is room."""
         entry = self.entries[self._away]
         coded = (record.held for record in entry.records)
-        saved = sum(put_away(held) for held in coded if isinstance(held, CodedData | CodedTile))
+        saved = sum(put_away(held, spare=True) for held in coded if isinstance(held, CodedData | CodedTile))
         entry.records.clear()
         self._take(entry, _saving(entry.step, saved, self._undone))
         self._away += 1

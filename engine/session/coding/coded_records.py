@@ -230,11 +230,14 @@ def encode(record: Record, other: Record | None) -> int:
     return max(taken - coded.nbytes, 1)
 
 
-def put_away(coded: Packed) -> int:
-    """Puts what is packed away on disk.  Returns the bytes of memory that it takes less: 0 where it lies there already,
-    is so small that its place there is told in as many, or has no room."""
+def put_away(coded: Packed, spare: bool = False) -> int:
+    """Puts what is packed away on disk; `spare`: only where others have room there, too.  Returns the bytes of memory
+    that it takes less: 0 where it lies there already, is so small that its place there is told in as many, or has no
+    room."""
     packed = coded.packed
-    put = spill().put(packed) if isinstance(packed, bytes) and len(packed) > PLACE_OVERHEAD else None
+    if not isinstance(packed, bytes) or len(packed) <= PLACE_OVERHEAD:
+        return 0
+    put = spill().put_spare(packed) if spare else spill().put(packed)
     if put is None:
         return 0
     object.__setattr__(coded, "packed", put)

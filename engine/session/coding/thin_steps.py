@@ -87,7 +87,7 @@ def thin_step(far: Painting, near: Painting) -> ThinStep | None:
     ends = replace(far, root=layers.EMPTY), replace(near, root=layers.EMPTY)
     bare = replace(paint, levels=Pyramid().levels, known=Pyramid().known, bounds_known=None)
     same = _same(*ends, set())
-    return ThinStep(ends[same], ends[1], one.name, bare, inks, spill().put(piece) or piece)
+    return ThinStep(ends[same], ends[1], one.name, bare, inks, spill().put_spare(piece) or piece)
 
 
 def _alike(one: Node, other: Node) -> bool:

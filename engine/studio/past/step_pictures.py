@@ -123,7 +123,7 @@ class StepPictures:
     def _put_away(self, index: int) -> None:
         """Puts a picture on disk, if it is still there, and there is room."""
         command, packed = self._kept.get(index, (None, None))
-        put = spill().put(packed) if command is not None and isinstance(packed, bytes) else None
+        put = spill().put_spare(packed) if command is not None and isinstance(packed, bytes) else None
         if command is not None and isinstance(packed, bytes) and put is not None:
             self._count(packed, -1)
             self._kept[index] = command, put

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from engine.keeping import spill as module
 from engine.keeping.spill import Spill
 
 
@@ -40,6 +41,22 @@ def test_a_place_that_is_free_is_used_again(spill):
         put = spill.put(bytes([n]) * (9_000 + n))
         assert put.read()[-1] == n
     assert spill.length < 40_000
+
+
+def test_what_can_be_made_again_leaves_room_on_the_disk_to_others(spill, monkeypatch):
+    held = [spill.put_spare(bytes(9_000)) for _ in range(3)]
+    assert None not in held
+    monkeypatch.setattr(module, "_SPARE", 1 << 62)
+    monkeypatch.setattr(module, "_ASKED", 1 << 14)
+    spill._ask_from = 0
+    assert spill.put_spare(bytes(9_000)) is None
+    held.pop()
+    assert spill.put_spare(bytes(9_000)).read() == bytes(9_000)  # where something lay it takes no more
+    assert spill.put(bytes(9_000)).read() == bytes(9_000)
+    monkeypatch.setattr(module, "_SPARE", 0)
+    held += [spill.put_spare(bytes(9_000)) for _ in range(3)]
+    monkeypatch.setattr(module, "_SPARE", 1 << 62)
+    assert None in [spill.put_spare(bytes(9_000 * n)) for n in range(2, 9)]  # it is asked from time to time
 
 
 def test_nobody_else_finds_the_file_and_nothing_is_left_of_it(tmp_path, spill):

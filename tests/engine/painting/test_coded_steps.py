@@ -316,7 +316,7 @@ def test_what_is_kept_of_data_that_were_asked_for_is_bounded(monkeypatch):
 
 
 def test_old_steps_are_coded_beside_the_painting_and_forgotten_ones_are_played_anew(monkeypatch):
-    monkeypatch.setattr(Spill, "put", lambda spill, piece: None)
+    monkeypatch.setattr(Spill, "put", lambda spill, piece, spare=False: None)
     studio = Studio(lambda result: None, lambda request: None)
     studio.do(q.New(Rect.at(0, 0, 96, 96)))
     session = studio.easel.session

@@ -36,10 +36,10 @@ class Narrow(Spill):
         super().__init__(folder)
         self.room = room
 
-    def put(self, piece):
+    def put(self, piece, spare=False):
         with self._lock:
             self._collect()  # what nobody holds any more has no part in what is full
-        return super().put(piece) if self.held + len(piece) <= self.room else None
+        return super().put(piece, spare) if self.held + len(piece) <= self.room else None
 
 
 @pytest.fixture
