@@ -198,12 +198,17 @@ def make_thin(line: StepLine) -> None:
     """Makes the farthest step thin that could be, if it changed the paint of one layer alone; else it is coded, and put
     away on disk."""
     number = line._thin
-    if number == line._coded:
-        line.code()  # by what is nearer, as far as may be
+    if number == line._coded and not line._undone:
+        line.code()  # by what is nearer, as far as may be; of what was undone that is made of what is farther
     entry, nearer = line.entries[number], line.entries[number + 1]
     (far, near), reached = _paintings(entry.step, line._undone), _ends(nearer.step, line._undone)[0]
-    line._thin += 1
     made = thin_step(far, near) if reached is near.root else None
+    if number == line._coded:
+        if made is None:
+            line.code()
+        else:
+            line._begun, line._coded, entry.coded = None, number + 1, True
+    line._thin += 1
     if made is None:
         if number == line._away:
             line.put_away()

@@ -252,6 +252,20 @@ def coded_alone(record: Record) -> tuple[CodedData, bytes]:
     return coded, coded.packed if isinstance(coded.packed, bytes) else coded.packed.read()
 
 
+def coded_by(record: Record, other: Record | None) -> tuple[CodedData, bytes]:
+    """Returns a record's data by those of another one, which are sheets as well or neither are, by themselves where
+    there is none; and what is packed of them.  The records stay as they are."""
+    sheets = record.sheets
+    if sheets is None:
+        coded = _coded(record, other)
+    elif other is None:
+        coded = whole_sheets(record, sheets)
+    else:
+        coded, _ = _coded_sheets(record, sheets, other)
+    assert isinstance(coded.packed, bytes)
+    return coded, coded.packed
+
+
 def decode(record: Record) -> None:
     """Makes a record as it was."""
     held = record.held

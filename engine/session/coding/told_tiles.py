@@ -10,7 +10,7 @@ from isal import isal_zlib
 
 from engine.canvas.store import Record
 from engine.numeric.address import Rect, TileKey
-from engine.session.coding.coded_records import CodedData, CodedSheets, WholeSheets, coded_alone, whole_sheets
+from engine.session.coding.coded_records import CodedData, CodedSheets, WholeSheets, coded_by
 from engine.session.coding.sheets_within import SheetsWithin
 from engine.session.coding.spanned import SpannedData
 from engine.texture.planes import COLOURS, plane_map
@@ -76,17 +76,14 @@ def read(piece: bytes, others: Inks, near_at: Callable[[TileKey], Record | None]
 
 
 def _coded(record: Record, near: Record | None) -> tuple[CodedData, bytes]:
-    """Returns a record's data by the record that the near end has there, if they are made of that one, or by
-    themselves; and what is packed of them.  The record stays as it is."""
+    """Returns a record's data by the record that the near end has there, as those of steps that were undone never are
+    yet, unless they were coded by themselves, so that no way to any is long; and what is packed of them.  The record
+    stays as it is."""
     held = record.held
     if isinstance(held, CodedData) and type(held) in _FORMS and (held.other is None or held.other is near):
         return held, held.packed if isinstance(held.packed, bytes) else held.packed.read()
-    sheets = record.sheets
-    if sheets is None:
-        return coded_alone(record)
-    whole = whole_sheets(record, sheets)
-    assert isinstance(whole.packed, bytes)
-    return whole, whole.packed
+    alike = near is not None and (near.sheets is None) == (record.sheets is None)
+    return coded_by(record, near if alike else None)
 
 
 def _own(coded: CodedData) -> tuple[int, ...]:

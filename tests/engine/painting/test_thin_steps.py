@@ -97,6 +97,22 @@ def test_steps_far_away_are_thin_until_they_are_near_again(tight, inks):
     session.do(c.Redo(99))
 
 
+@pytest.mark.parametrize("ink", [(), ROCKS[0], [*ROCKS[0], *ROCKS[1]]])
+def test_steps_undone_without_a_rest_take_no_more_than_they_changed(tight, ink):
+    session = tight()
+    for command in (stroke(3, radius=60.0, ink=ink), *(stroke(n % 10, radius=2.0, ink=ink) for n in range(48))):
+        session.do(command)
+    done = sizes(session.history._done)
+    for _ in range(len(done)):
+        session.do(c.Undo(1))
+    assert sum(sizes(session.history._undone)) < 2 * sum(done)
+
+
+def sizes(line):
+    pieces = [entry.thin.piece for entry in line.entries if entry.thin is not None]
+    return [len(piece) if isinstance(piece, bytes) else piece.size for piece in pieces]
+
+
 @settings(deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(ACTS, min_size=4, max_size=20))
 def test_whatever_was_done_is_come_to_again(tight, acts):
