@@ -49,6 +49,15 @@ def calm(app: Program, seconds: float = PREPARED) -> np.ndarray:
     return seen
 
 
+def prepared(app: Program) -> None:
+    """Waits until all brushes have their pictures."""
+    end = time.monotonic() + PREPARED
+    while "all brushes ready" not in app.log.read_text():
+        if time.monotonic() > end:
+            raise SystemExit("not all brushes get ready")
+        time.sleep(0.5)
+
+
 def lower(app: Program, edge: str, pixels: int) -> None:
     """Drags the edge below a panel."""
     x, y = app.at(edge)
@@ -139,8 +148,9 @@ def shown(display: str, path: Path, look: str, act: Act) -> Image.Image:
     preferences = path.parent / "config" / "inkfall" / "preferences.toml"
     preferences.parent.mkdir(parents=True, exist_ok=True)
     preferences.write_text(f'[display]\nlook = "{look}"\n')
-    app = Program(display, path.parent, str(path), ready="all brushes ready")
+    app = Program(display, path.parent, str(path))
     try:
+        prepared(app)
         calm(app)
         act(app)
         app.park()
