@@ -91,6 +91,7 @@ class JobQueue:
         self._urgent: set[str] = set()  # keys of those that are waited for
         self._blocked: dict[str, str] = {}  # key of a job: the kernel of another process that it waits for
         self._claimed: dict[str, int] = {}  # kernel: number of the process that compiles it
+        self._there: set[str] = set()  # kernels that were compiled, and nobody missed since
 
     def __len__(self) -> int:
         """Returns those that are not done."""
@@ -136,12 +137,17 @@ class JobQueue:
         self._jobs.clear()
 
     def claim(self, kernel: str, number: int) -> bool:
-        """Tells whether a process may compile a kernel: no other does."""
+        """Tells whether a process may compile a kernel: no other does, nor did while its word that it is missing was
+        on the way."""
+        if kernel in self._there:
+            self._there.remove(kernel)  # who misses it again, which is tried at once, does rightly
+            return False
         return self._claimed.setdefault(kernel, number) == number
 
     def compiled(self, kernel: str) -> None:
         """A kernel is there."""
         self._claimed.pop(kernel, None)
+        self._there.add(kernel)
 
     def leave(self, number: int) -> None:
         """A process has gone, and compiles nothing."""

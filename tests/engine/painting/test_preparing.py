@@ -14,7 +14,16 @@ from engine.brush.parts import Surface
 from engine.brush.settings import Brush
 from engine.painting.commands import parse
 from engine.studio.preparing import exercise, noted
-from engine.studio.preparing.job_queue import FILES, LEARNT_DETAIL, STRUCTURE, WRITTEN_TEXTURES, Job, expected, job_of
+from engine.studio.preparing.job_queue import (
+    FILES,
+    LEARNT_DETAIL,
+    STRUCTURE,
+    WRITTEN_TEXTURES,
+    Job,
+    JobQueue,
+    expected,
+    job_of,
+)
 from engine.studio.preparing.processes import Preparing
 from engine.studio.requests import Swatch
 
@@ -122,6 +131,19 @@ def test_two_processes_compile_no_kernel_twice(folder, make):
     preparing.want([job(*shared, f"own{i}", takes=0.05) for i in range(8)])
     found = compiled(folder, preparing)
     assert sorted(found) == sorted([*shared, *(f"own{i}" for i in range(8))])
+
+
+def test_a_kernel_that_came_while_it_was_told_as_missing_is_looked_for_again():
+    queue, waits = JobQueue(), job("a")
+    assert queue.claim("a", 1)
+    assert not queue.claim("a", 2)
+    queue.compiled("a")
+    queue.add([waits], soon=False)
+    assert queue.take(urgent=False) == waits
+    assert not queue.claim("a", 2)
+    queue.put_back(waits, "a")
+    assert queue.take(urgent=False) == waits  # at once: nobody compiles it
+    assert queue.claim("a", 2)  # and it is not there
 
 
 def test_while_somebody_paints_one_process_works_unless_a_job_is_waited_for(folder, make):
