@@ -43,7 +43,7 @@ MOST = 4  # inks of a tile
 STRIDE = 4  # of the pixels by which terms are found,
 FEW = 1 << 12  # unless a tile has no more than these
 SQUARE = 4  # tiles along the side of a square that is evaluated at a time
-AT_ONCE = 8 << 20  # bytes of the planes above a square, up to which its tiles are worked on together
+ABOVE_AT_ONCE = 8 << 20  # bytes of the planes above a square, up to which its tiles are worked on together
 SHARED = 8  # inks whose appearance is held for a whole square
 _NOTHING = Rect(0, 0, 0, 0)
 ONE = 1 << 30  # unit of p, q, s
@@ -100,7 +100,7 @@ def _parts(square: list[Tile]) -> list[list[Tile]]:
     """Returns the tiles of a square that are worked on together: all, or each by itself where so many inks lie that
     the planes above all of them would take too many bytes."""
     inks = set[Instance]().union(*(record.inks for _, record in square))
-    together = 4 * _bounds(square).parents().area * (COLOURS + 3 * len(inks)) <= AT_ONCE
+    together = 4 * _bounds(square).parents().area * (COLOURS + 3 * len(inks)) <= ABOVE_AT_ONCE
     return [square] if together else [[tile] for tile in square]
 
 

@@ -18,6 +18,7 @@ from engine.canvas.store import Record
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import Rect
 from engine.numeric.recent import Recent
+from engine.session.coding.byte_planes import joined_bytes, split_bytes
 from engine.texture.even_planes import EvenPlanes
 from engine.texture.planes import COLOURS, plane_map
 from engine.texture.record import Instance
@@ -366,24 +367,6 @@ def _told(top: int, bottom: int, left: int, right: int) -> int:
 def _window(edges: int) -> tuple[slice, slice]:
     """Returns the rows and columns between such edges."""
     return slice(edges & 255, edges >> 8 & 255), slice(edges >> 16 & 255, edges >> 24)
-
-
-def split_bytes(values: np.ndarray) -> np.ndarray:
-    """Returns the bytes of integers, the lowest of all of them first: uint8 (bytes, n)."""
-    bits = np.ascontiguousarray(values).reshape(-1).view(f"u{values.itemsize}")
-    out = np.empty((values.itemsize, bits.size), np.uint8)
-    for n, row in enumerate(out):  # several times as fast as to transpose them
-        np.copyto(row, bits >> np.uint8(8 * n) if n else bits, casting="unsafe")
-    return out
-
-
-def joined_bytes(parts: np.ndarray, dtype: np.dtype) -> np.ndarray:
-    """Returns the integers of which `split_bytes` made bytes: (n,)."""
-    bits: np.ndarray = parts[-1].astype(f"u{dtype.itemsize}")
-    for row in parts[-2::-1]:
-        bits <<= np.uint8(8)
-        bits |= row
-    return bits.view(dtype)
 
 
 def _predicted(

@@ -13,7 +13,7 @@ from isal import isal_zlib
 from engine.keeping.spill import PLACE_OVERHEAD, Spilled
 from engine.numeric.grid import FINE_STEP
 from engine.numeric.recent import Recent
-from engine.session.coding.coded_records import joined_bytes, split_bytes
+from engine.session.coding.byte_planes import joined_bytes, split_bytes
 from engine.texture.example.tiles import TilePlanes
 
 _MADE = 16 << 20  # bytes of planes kept that were asked for

@@ -10,7 +10,8 @@ from isal import isal_zlib
 
 from engine.canvas.store import Record
 from engine.numeric.address import Rect
-from engine.session.coding.coded_records import CodedData, CodedSheets, joined_bytes, sheets_of, split_bytes
+from engine.session.coding.byte_planes import joined_bytes, split_bytes
+from engine.session.coding.coded_records import CodedData, CodedSheets, sheets_of
 from engine.texture.planes import COLOURS
 from engine.texture.sparse_planes import SparsePlanes
 

@@ -12,7 +12,8 @@ from isal import isal_zlib
 
 from engine.canvas.rising import span_values
 from engine.canvas.store import Record
-from engine.session.coding.coded_records import CodedData, Ways, joined_bytes, split_bytes
+from engine.session.coding.byte_planes import joined_bytes, split_bytes
+from engine.session.coding.coded_records import CodedData, Ways
 from engine.session.coding.sheets_within import sheets_within
 
 _LESS = 2  # a record's own bytes are such a multiple of what is kept of it, at least: else it stays whole

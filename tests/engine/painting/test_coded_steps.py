@@ -18,6 +18,7 @@ from engine.painting.value import Painting
 from engine.session import history as histories
 from engine.session import line as lines
 from engine.session.coding import coded_records
+from engine.session.coding.byte_planes import joined_bytes, split_bytes
 from engine.session.coding.coded_records import (
     WAY,
     CodedData,
@@ -26,9 +27,7 @@ from engine.session.coding.coded_records import (
     WholeSheets,
     decode,
     encode,
-    joined_bytes,
     put_away,
-    split_bytes,
 )
 from engine.session.coding.sheets_within import SheetsWithin
 from engine.session.coding.spanned import SpannedData

@@ -105,7 +105,7 @@ def test_every_residual_comes_back(name):
 def test_tiles_of_many_inks_are_the_same_each_by_itself(name, monkeypatch):
     pyramid = painted(*SCENES[name])
     together = pack(coded(pyramid))
-    monkeypatch.setattr(implied, "AT_ONCE", 0)
+    monkeypatch.setattr(implied, "ABOVE_AT_ONCE", 0)
     assert pack(coded(pyramid)) == together
 
 
