@@ -199,7 +199,7 @@ def make_thin(line: StepLine) -> None:
     away on disk."""
     number = line._thin
     if number == line._coded and not line._undone:
-        line.code()  # by what is nearer, as far as may be; of what was undone that is made of what is farther
+        line.code()  # by what is nearer, as far as may be; of undone steps what is nearer is made of what is farther
     entry, nearer = line.entries[number], line.entries[number + 1]
     (far, near), reached = _paintings(entry.step, line._undone), _ends(nearer.step, line._undone)[0]
     made = thin_step(far, near) if reached is near.root else None

@@ -76,9 +76,9 @@ def read(piece: bytes, others: Inks, near_at: Callable[[TileKey], Record | None]
 
 
 def _coded(record: Record, near: Record | None) -> tuple[CodedData, bytes]:
-    """Returns a record's data by the record that the near end has there, as those of steps that were undone never are
-    yet, unless they were coded by themselves, so that no way to any is long; and what is packed of them.  The record
-    stays as it is."""
+    """Returns a record's data, and what is packed of them: as they are coded already, where that is by themselves, so
+    that no way to any is long, or by the record that the near end has there; else by that one, if both are sheets or
+    neither is.  The record stays as it is."""
     held = record.held
     if isinstance(held, CodedData) and type(held) in _FORMS and (held.other is None or held.other is near):
         return held, held.packed if isinstance(held.packed, bytes) else held.packed.read()
